@@ -77,12 +77,12 @@ CadDocument readStep(const ImportJob& job) {
   std::istream stream(&buffer);
   if (reader.ChangeReader().ReadStream(job.file.filename().c_str(), stream) != IFSelect_RetDone)
     failUnreadable(job, "STEP");
-  job.progress(kReadEnd);
+  job.progress(stageEndsOf(job).read);
   job.endStage("read");
-  progress.stageTo(kReadEnd);
+  progress.stageTo(stageEndsOf(job).read);
   const Handle(TDocStd_Document) document = newDocument();
   Handle(TDocStd_Document) target = document;
-  if (!reader.Transfer(target, progress.stageTo(kTransferredEnd))) failUnreadable(job, "STEP");
+  if (!reader.Transfer(target, progress.stageTo(stageEndsOf(job).transferred))) failUnreadable(job, "STEP");
   job.endStage("transfer");
   return readXcaf(*document, {kMetresPerMillimetre}, job, progress);
 }
@@ -95,11 +95,11 @@ CadDocument readIges(const ImportJob& job) {
   reader.SetLayerMode(Standard_False);
   const MemoryFile file(job.bytes);
   if (reader.ReadFile(file.path().c_str()) != IFSelect_RetDone) failUnreadable(job, "IGES");
-  job.progress(kReadEnd);
+  job.progress(stageEndsOf(job).read);
   job.endStage("read");
-  progress.stageTo(kReadEnd);
+  progress.stageTo(stageEndsOf(job).read);
   Handle(TDocStd_Document) document = newDocument();
-  if (!reader.Transfer(document, progress.stageTo(kTransferredEnd))) failUnreadable(job, "IGES");
+  if (!reader.Transfer(document, progress.stageTo(stageEndsOf(job).transferred))) failUnreadable(job, "IGES");
   job.endStage("transfer");
   XcafOptions options{kMetresPerMillimetre};
   options.sewsFaces = true;
@@ -115,7 +115,7 @@ CadDocument readBrep(const ImportJob& job) {
   // The reader would try to read on behind the end of a file that is cut off, over and over.
   stream.exceptions(std::ios::failbit | std::ios::badbit);
   try {
-    BRepTools::Read(shape, stream, builder, progress.stageTo(kTransferredEnd));
+    BRepTools::Read(shape, stream, builder, progress.stageTo(stageEndsOf(job).transferred));
   } catch (const std::ios_base::failure&) {
     throw FileError(job.file.string(), "it is cut off or damaged", "export or copy it again");
   }
@@ -146,7 +146,8 @@ CadDocument readGltf(const ImportJob& job) {
   // Its buffers are found beside it, so that it is read from where it lies.
   const MemoryFile unpacked(job.bytes);
   const std::string path = job.wasPacked ? unpacked.path() : job.file.string();
-  if (!reader.Perform(path.c_str(), progress.stageTo(kTransferredEnd))) failUnreadable(job, "glTF");
+  if (!reader.Perform(path.c_str(), progress.stageTo(stageEndsOf(job).transferred)))
+    failUnreadable(job, "glTF");
   job.endStage("read");
   XcafOptions options{1.0};
   options.areTriangles = true;

@@ -34,6 +34,7 @@ class DocumentBuilder {
   /// Sets the shape of a place; the key stays. Without triangles it is left out, with its nodes.
   void setShape(std::int32_t shape, CadShape content);
   void setHasUnit(bool hasUnit) { document_.hasUnit = hasUnit; }
+  void setStatedUnit(double metresPerUnit) { document_.statedUnit = metresPerUnit; }
   /// The document holds triangles instead of exact surfaces, which decides what can be done about an empty one.
   void setHasTrianglesOnly() { hasTrianglesOnly_ = true; }
   /// A warning, as a sentence.

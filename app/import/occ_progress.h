@@ -20,14 +20,34 @@ class OccProgress {
   /// The next stage, which brings the whole to `end` (0 to 1).
   Message_ProgressRange stageTo(double end);
 
+  /// While it exists, progress of the present stage grows with the processor time that is used, by the less the more of
+  /// it is used: OpenCASCADE says nothing while it meshes one face, which takes minutes if it is large and its triangles
+  /// are fine. A process that hangs uses none, and one that loops is ended by its limit of it.
+  class Steady {
+   public:
+    /// @param progress  Outlives it. Nothing else may call stageTo() meanwhile.
+    explicit Steady(OccProgress& progress);
+    ~Steady();
+    Steady(const Steady&) = delete;
+    Steady& operator=(const Steady&) = delete;
+
+   private:
+    struct Ticker;
+    std::unique_ptr<Ticker> ticker_;
+  };
+
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
 
-/// Progress at the end of each stage: OpenCASCADE says nothing while it reads, which takes about as long as each of the
-/// others.
-constexpr double kReadEnd = 0.25, kTransferredEnd = 0.5, kMeshedEnd = 0.97;
+/// Progress at the end of each stage.
+struct StageEnds {
+  double read, transferred, meshed;
+};
+/// OpenCASCADE says nothing while it reads, which takes about as long as each of the others, unless a tessellation is
+/// asked for: that is mostly a fine one, and meshing takes most of the time.
+StageEnds stageEndsOf(const ImportJob& job);
 
 /// Sets OpenCASCADE up: threads of its own number, and no messages on the terminal.
 void setUpOcc();

@@ -22,6 +22,7 @@ class ThreeMfReader {
 
   CadDocument read() {
     model_ = loadThreeMf(job_);
+    builder_.setStatedUnit(model_.metresPerUnit);
     job_.progress(0.5);
     job_.endStage("read");
     for (const ThreeMfPlacement& item : model_.items)

@@ -475,7 +475,8 @@ class XcafReader {
   }
 
   void meshAll() {
-    const Message_ProgressRange range = progress_.stageTo(kMeshedEnd);
+    const Message_ProgressRange range = progress_.stageTo(stageEndsOf(job_).meshed);
+    const OccProgress::Steady steady(progress_);
     Message_ProgressScope scope(range, "mesh",
                                 static_cast<double>(std::max<std::size_t>(1, pending_.size())));
     for (const PendingShape& pending : pending_) {

@@ -52,6 +52,9 @@ struct CadNode {
 struct CadDocument {
   /// False for formats without units: lengths are in the file's own.
   bool hasUnit = true;
+  /// Metres per unit that the file states for its numbers, where it may state a wrong one (3MF); else 1. Lengths here are
+  /// in metres all the same.
+  double statedUnit = 1.0;
   std::vector<CadShape> shapes;
   std::vector<CadNode> nodes;  ///< Parents first.
   std::vector<std::string> warnings;

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::array<char, 8> kDocumentMagic{'N', 'F', 'C', 'A', 'D', 'D', 'O', 'C'};
 /// To be raised with each change of the format: importer and program may come from different builds.
-constexpr std::uint32_t kDocumentVersion = 1;
+constexpr std::uint32_t kDocumentVersion = 2;
 /// Reads differently on a machine of the other byte order.
 constexpr std::uint32_t kDocumentByteOrder = 0x01020304;
 
@@ -357,6 +357,7 @@ CadDocument readUnchecked(std::span<const std::byte> bytes) {
   readHead(in);
   CadDocument document;
   document.hasUnit = in.flag();
+  document.statedUnit = in.value<double>();
   document.sha256 = in.text();
   document.warnings = in.texts();
   document.shapes.resize(in.count(kShapeBytes));
@@ -373,6 +374,9 @@ CadDocument readUnchecked(std::span<const std::byte> bytes) {
 
 void checkDocument(const CadDocument& document) {
   require(isSha256(document.sha256), "checksum", "it is no SHA-256");
+  // NaN compares false.
+  require(document.statedUnit >= kMinStatedUnit && document.statedUnit <= kMaxStatedUnit, "unit",
+          "it is out of range");
   checkWarnings(document.warnings, "document");
   // Each shape is placed by a node at least.
   require(document.shapes.size() <= kMaxDocumentNodes, "shapes", "there are too many");
@@ -393,6 +397,7 @@ void writeDocument(const CadDocument& document, const DocumentSink& sink) {
   out.value(kDocumentByteOrder);
   out.value(kDocumentVersion);
   out.value(static_cast<std::uint8_t>(document.hasUnit));
+  out.value(document.statedUnit);
   out.text(document.sha256);
   out.texts(document.warnings);
   out.value(std::uint64_t{document.shapes.size()});

@@ -23,6 +23,8 @@ constexpr std::size_t kMaxWarningBytes = 1000, kMaxWarnings = 100;
 /// Of a coordinate or a length, in the document's unit: farther than the moon in millimetres, and its square and cube
 /// are far from overflow.
 constexpr double kMaxDocumentLength = 1e12;
+/// Of the unit that a file states [m]: from nanometres to beyond miles.
+constexpr double kMinStatedUnit = 1e-9, kMaxStatedUnit = 1e4;
 /// Of the result file: some 100 million triangles at 32 bytes each.
 constexpr std::uint64_t kMaxDocumentBytes = std::uint64_t{4} << 30;
 

@@ -129,6 +129,7 @@ PartGeometryPtr cachedGeometry(PartGeometry named, CachedMesh loaded) {
     named.faceColours = std::move(loaded.shape->faceColours);
     named.isExact = loaded.shape->isExact;
     named.exactVolume = loaded.shape->exactVolume;
+    named.statedUnit = loaded.shape->statedUnit;
   }
   return std::make_shared<const PartGeometry>(std::move(named));
 }
@@ -141,7 +142,8 @@ CachedMesh toCache(const PartGeometry& geometry) {
                            geometry.effectiveTessellation.chord,
                            geometry.effectiveTessellation.angle,
                            geometry.exactVolume,
-                           geometry.isExact};
+                           geometry.isExact,
+                           geometry.statedUnit};
   return mesh;
 }
 

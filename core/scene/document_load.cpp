@@ -264,6 +264,7 @@ PartGeometryPtr geometryOf(CadShape& shape, const Source& source, const CadDocum
         return cachedGeometry(std::move(geometry), std::move(*kept));
     }
     CachedMesh mesh = built(shape, own.metresPerUnit, onProgress);
+    mesh.shape->statedUnit = document.statedUnit;
     storeMesh(geometry, mesh);
     return cachedGeometry(std::move(geometry), std::move(mesh));
   } catch (const FileError&) {
@@ -533,8 +534,8 @@ bool storesUnit(const fs::path& file) {
 }
 
 bool mayBeInWrongUnit(const fs::path& file) {
-  constexpr std::array<std::string_view, 3> kInMetres{"gltf", "glb", "urdf"};
-  return std::ranges::find(kInMetres, formatOf(file)) != kInMetres.end();
+  constexpr std::array<std::string_view, 4> kDoubtful{"gltf", "glb", "urdf", "3mf"};
+  return std::ranges::find(kDoubtful, formatOf(file)) != kDoubtful.end();
 }
 
 bool canChangeUnit(const PartGeometry& geometry) {

@@ -25,8 +25,9 @@ constexpr std::size_t kMaxShapeKeyBytes = 1000;
 
 /// True if files of this name store their unit: all CAD documents except BREP. Mesh files do not.
 bool storesUnit(const std::filesystem::path& file);
-/// True if files of this name are in metres by their format, but are often written in another unit: glTF and URDF. Their
-/// unit is not asked for, yet it can be changed afterwards: metresPerUnit is then that of the numbers in the file.
+/// True if files of this name may be in another unit than they are read in: glTF and URDF are in metres by their format,
+/// but often written in another unit, and 3MF files state a unit that programs take for a formality. Their unit is not
+/// asked for, yet it can be changed afterwards: metresPerUnit is then the factor by which lengths are corrected.
 bool mayBeInWrongUnit(const std::filesystem::path& file);
 /// True if the geometry can be read in another unit.
 bool canChangeUnit(const PartGeometry& geometry);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <exception>
 #include <utility>
@@ -24,6 +25,10 @@ namespace {
 constexpr std::array<std::pair<std::string_view, double>, 6> kMeshUnits{
     {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"um", 1e-6}, {"in", 0.0254}, {"ft", 0.3048}}};
 
+/// Of files without a unit, the most common first [m]. Rarer ones would cause wrong guesses, and tenths of a millimetre
+/// and centimetres are never nearer than millimetres by kRareUnit.
+constexpr std::array kLikelyUnits{1e-3, 0.0254, 1.0, 1e-6};
+
 }  // namespace
 
 double parseMeshUnit(std::string_view text, const std::string& where) {
@@ -37,6 +42,20 @@ double parseMeshUnit(std::string_view text, const std::string& where) {
   }
   checkMetresPerUnit(*metres);
   return *metres;
+}
+
+double likelyMeshUnit(double size, double least, double most) {
+  double best = kLikelyUnits.front(), bestDistance = 0.0;
+  if (!std::isfinite(size) || size <= 0.0) return best;
+  for (const double unit : kLikelyUnits) {
+    const double ratio = std::max({least / (size * unit), size * unit / most, 1.0});
+    const double distance = std::log(unit == kLikelyUnits.front() ? ratio : kRareUnit * ratio);
+    if (unit == kLikelyUnits.front() || distance < bestDistance) {
+      best = unit;
+      bestDistance = distance;
+    }
+  }
+  return best;
 }
 
 std::optional<glm::dvec3> extentOfMeshFiles(std::span<const std::filesystem::path> files,

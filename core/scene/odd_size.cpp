@@ -61,7 +61,7 @@ std::optional<OddSize> oddSizeOf(const Scene& scene, std::span<const PartId> par
     if (size <= 0.0) continue;
     const bool isOwn = chosen.contains(part->id);
     (isOwn ? own : others).add(size);
-    if (isOwn) metresPerUnit = part->geometry->metresPerUnit;
+    if (isOwn) metresPerUnit = part->geometry->unitOfNumbers();
   }
   return judged(own, others, metresPerUnit);
 }
@@ -83,7 +83,7 @@ std::optional<OddPart> firstOddPart(const Scene& scene, std::span<const PartId> 
     own.add(size);
     others.add(size == least ? sizes[1] : least);
     others.add(size == most ? sizes[sizes.size() - 2] : most);
-    if (const auto odd = judged(own, others, part->geometry->metresPerUnit)) return OddPart{id, *odd};
+    if (const auto odd = judged(own, others, part->geometry->unitOfNumbers())) return OddPart{id, *odd};
   }
   return std::nullopt;
 }

@@ -82,6 +82,10 @@ struct PartGeometry {
   std::vector<std::optional<CadColour>> faceColours = {};
   bool isExact = false;      ///< Came from exact surfaces, so that it can be refined.
   bool hasOwnUnit = false;   ///< The file stores its unit: metresPerUnit is 1 unless it is corrected.
+  /// Metres per unit that a document states for its numbers, where it may state a wrong one (3MF); else 1.
+  double statedUnit = 1.0;
+  /// Metres per unit of the numbers in the file, as it is read.
+  double unitOfNumbers() const noexcept { return metresPerUnit * statedUnit; }
   double exactVolume = 0.0;  ///< Of the exact solid [m^3]; 0 if unknown.
 
   /// Hierarchy for queries, of the mesh with its flats merged (tree().mesh()); built on first use (seconds for

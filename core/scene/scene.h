@@ -102,6 +102,9 @@ class Scene {
   /// Scales the points that joints have on a part, as its mesh was, also those of locked parts: the mesh decides.
   /// Throws UsageError if one would not be within kMaxPosition.
   void scaleJointsOn(PartId part, double factor);
+  /// Scales the points in the world that joints keep a part on, about the world's origin, as its position was. Throws
+  /// UsageError like scaleJointsOn().
+  void scaleWorldJointsOf(PartId part, double factor);
 
   /// True if it, or a group that contains it at any depth, is locked.
   bool isLocked(const Part& part) const noexcept;

@@ -81,4 +81,14 @@ void Scene::scaleJointsOn(PartId part, double factor) {
   joints_ = std::move(scaled);
 }
 
+void Scene::scaleWorldJointsOf(PartId part, double factor) {
+  std::vector<Joint> scaled = joints_;
+  for (Joint& joint : scaled) {
+    if (joint.part != part || joint.base) continue;
+    joint.onBase.point *= factor;
+    checkPosition(joint.onBase.point);
+  }
+  joints_ = std::move(scaled);
+}
+
 }  // namespace nearfit

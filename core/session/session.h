@@ -66,7 +66,8 @@ class Session {
   void repairParts(const std::vector<NewGeometry>& parts);
   /// Replaces geometry by the same meshes in another unit, in one step. Pivots, and the points of joints on the parts,
   /// scale with the meshes. Poses stay, but positions of parts whose document mayBeInWrongUnit() scale about the world's
-  /// origin: the document lies as if it had been opened in the new unit.
+  /// origin, and so do the points in the world that joints keep these parts on: the document lies as if it had been
+  /// opened in the new unit.
   void rescaleParts(const std::vector<NewGeometry>& parts);
   /// Replaces geometry by the same shapes in another tessellation, in one step. Poses, pivots and joints stay.
   void refineParts(const std::vector<NewGeometry>& parts);
@@ -134,7 +135,8 @@ class Session {
 
   /// Replaces the scene and clears undo. `file` is empty for a new, unnamed scene.
   void reset(Scene scene = {}, const std::filesystem::path& file = {});
-  /// Like reset(), for a scene that was lost before it was saved: it stays modified until save().
+  /// Like reset(), for a scene that is in no file as it is, such as one that was lost before it was saved: it stays
+  /// modified until save().
   void restore(Scene scene, const std::filesystem::path& file);
   /// Writes the scene and makes `file` the session's file. Throws FileError.
   void save(const std::filesystem::path& file);

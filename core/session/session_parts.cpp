@@ -159,8 +159,12 @@ void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
     part.geometry = geometries.at(part.id);
   };
   const auto scaleJoints = [&](Scene& next) {
-    for (const auto& [id, geometry] : geometries)
-      next.scaleJointsOn(id, factorOf(scene().get(id)));
+    for (const auto& [id, geometry] : geometries) {
+      const Part& before = scene().get(id);
+      next.scaleJointsOn(id, factorOf(before));
+      // The part has moved about the world's origin; what it is kept on in the world must too.
+      if (mayBeInWrongUnit(before.geometry->file)) next.scaleWorldJointsOf(id, factorOf(before));
+    }
   };
   changeUnlocked(partsOf(parts), "Change the unit of", rescale, scaleJoints);
 }

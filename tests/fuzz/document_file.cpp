@@ -93,6 +93,7 @@ CadDocument someDocument(ByteSource& bytes) {
   for (std::size_t i = 0, count = bytes.below(40); i < count; ++i)
     document.nodes.push_back(someNode(bytes, i, document.shapes.size()));
   if (bytes.flag()) document.warnings.push_back(someText(bytes));
+  if (bytes.flag()) document.statedUnit = bytes.number();
   return document;
 }
 

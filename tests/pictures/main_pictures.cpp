@@ -197,7 +197,7 @@ class Pictures {
                               {}};
     }
     grabFailure(QStringLiteral("errors"),
-                ui::describeItems(QStringLiteral("8 of 34 files were not added."), files));
+                ui::describeItems(QStringLiteral("8 of 34 files could not be loaded. The others were added."), files));
   }
   void dialogs() {
     ui::MainWindow& window = driver_.window();
@@ -210,7 +210,8 @@ class Pictures {
     trigger("duplicate");
     grabDialog(QStringLiteral("unsaved"), [&] { window.close(); });
     trigger("undo");
-    auto* progress = new ui::ProgressDialog(QStringLiteral("Loading bracket.stl…"), &window);
+    auto* progress =
+        new ui::ProgressDialog(QStringLiteral("Loading"), QStringLiteral("Loading bracket.stl…"), &window);
     progress->show();
     progress->setFraction(0.4);
     grab(*progress, QStringLiteral("dialog-progress"));

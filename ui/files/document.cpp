@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.h"
@@ -17,6 +18,7 @@
 #include "ui/files/dropped_files.h"
 #include "ui/files/recent_files.h"
 #include "ui/files/unit_dialog.h"
+#include "ui/widgets/names.h"
 #include "ui/widgets/paths.h"
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/progress_dialog.h"
@@ -25,7 +27,15 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr double kReading = 0.45;  ///< Share of loading spent on reading; the rest builds shapes.
+/// Share of loading spent on reading; the rest builds shapes.
+constexpr double kReadingMeshes = 0.45, kReadingDocuments = 0.85;
+
+constexpr double shareOf(Reading what) {
+  return what == Reading::Documents ? kReadingDocuments : kReadingMeshes;
+}
+
+/// Where no file is without a unit, it is not used [m].
+constexpr double kAnyUnit = 1e-3;
 
 const QString kSceneSuffix = QStringLiteral("nearfit");
 
@@ -69,9 +79,45 @@ Aabb boxOf(const Scene& scene) {
   return box;
 }
 
-std::optional<glm::dvec3> extentOf(const Scene& scene) {
+/// What a scene tells about the unit of files that are added to it.
+UnitHints hintsOf(const Scene& scene) {
+  UnitHints hints;
   const Aabb box = boxOf(scene);
-  return box.isEmpty() ? std::nullopt : std::optional(box.upper - box.lower);
+  if (box.isEmpty()) return hints;
+  hints.scene = box.upper - box.lower;
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const Scene::PartPtr& part : scene.parts()) {
+    const double size = part->geometry != nullptr ? part->geometry->mesh.bounds().diagonal() : 0.0;
+    if (!(size > 0.0)) continue;
+    least = std::min(least, size);
+    most = std::max(most, size);
+  }
+  if (most > 0.0) {
+    hints.leastSize = least;
+    hints.mostSize = most;
+  }
+  return hints;
+}
+
+QStringList foldersOf(const QStringList& files) {
+  QStringList folders;
+  for (const QString& file : files)
+    folders << QFileInfo(file).absolutePath();
+  folders.removeDuplicates();
+  return folders;
+}
+
+/// Extensions, as in ".stl".
+QStringList typesOf(const QStringList& files) {
+  const QString packed = QStringLiteral(".gz");
+  QStringList types;
+  for (const QString& file : files) {
+    const QString lowered = file.toLower();
+    const QString plain = lowered.endsWith(packed) ? lowered.chopped(packed.size()) : lowered;
+    types << QStringLiteral(".") + QFileInfo(plain).suffix();
+  }
+  types.removeDuplicates();
+  return types;
 }
 
 /// Stands for a file name in a failure that concerns all files.
@@ -79,21 +125,41 @@ QString nameOfAll(const QStringList& files) {
   return files.size() == 1 ? QFileInfo(files.first()).fileName() : QObject::tr("All files");
 }
 
-QString notAdded(const QStringList& files, const QVector<FailedItem>& problems) {
-  if (files.size() == 1) return QObject::tr("“%1” was not added.").arg(nameOfAll(files));
-  if (problems.size() == 1)
-    return QObject::tr("“%1”, one of %2 files, was not added.").arg(problems.first().name).arg(files.size());
-  return QObject::tr("%1 of %2 files were not added.").arg(problems.size()).arg(files.size());
+/// Says which files could not be loaded, and what became of the scene.
+/// @param isAny  Parts of others have come.
+/// @param isNew  Of a new scene, else of the open one.
+Failure notLoaded(const QStringList& files, QVector<FailedItem> problems, bool isAny, bool isNew) {
+  for (FailedItem& problem : problems) {
+    if (problem.remedy.isEmpty())
+      problem.remedy = QObject::tr("Try to open it in the program that wrote it, and export it again.");
+  }
+  QString others = isNew ? QObject::tr("The open scene stays.") : QObject::tr("Nothing was added.");
+  if (isAny)
+    others = isNew ? QObject::tr("The others make up the new scene.") : QObject::tr("The others were added.");
+  QString which;
+  if (files.size() == 1)
+    which = QObject::tr("“%1” could not be loaded.").arg(nameOfAll(files));
+  else if (!isAny)
+    which = QObject::tr("None of %1 files could be loaded.").arg(files.size());
+  else if (problems.size() == 1)
+    which = QObject::tr("“%1”, one of %2 files, could not be loaded.")
+                .arg(problems.first().name)
+                .arg(files.size());
+  else
+    which = QObject::tr("%1 of %2 files could not be loaded.").arg(problems.size()).arg(files.size());
+  return describeItems(which + ' ' + others, problems);
 }
 
 }  // namespace
 
-ProgressCallback progressOfReading(const ProgressCallback& whole) {
-  return [whole](double fraction) { return !whole || whole(kReading * fraction); };
+ProgressCallback progressOfReading(const ProgressCallback& whole, Reading what) {
+  const double share = shareOf(what);
+  return [whole, share](double fraction) { return !whole || whole(share * fraction); };
 }
 
-ProgressCallback progressOfShapes(const ProgressCallback& whole) {
-  return [whole](double fraction) { return !whole || whole(kReading + (1.0 - kReading) * fraction); };
+ProgressCallback progressOfShapes(const ProgressCallback& whole, Reading what) {
+  const double share = shareOf(what);
+  return [whole, share](double fraction) { return !whole || whole(share + (1.0 - share) * fraction); };
 }
 
 Document::Document(Session& session, std::shared_ptr<PartShapeCache> shapes, QWidget* window)
@@ -101,9 +167,9 @@ Document::Document(Session& session, std::shared_ptr<PartShapeCache> shapes, QWi
 
 Document::~Document() = default;
 
-void Document::load(const QString& text, BackgroundTask::Job job,
+void Document::load(const QString& title, const QString& text, BackgroundTask::Job job,
                     std::function<void(std::exception_ptr)> done) {
-  progress_ = new ProgressDialog(text, window_);
+  progress_ = new ProgressDialog(title, text, window_);
   connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
   connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
   task_.run(std::move(job), [this, done = std::move(done)](const std::exception_ptr& error) {
@@ -132,7 +198,7 @@ void Document::prepareNext() {
     return;
   }
   const auto job = [scene](const ProgressCallback& progress) { prepareToFeel(scene, progress); };
-  load(tr("Preparing the parts"), job, [this, answer](const std::exception_ptr& error) {
+  load(tr("Preparing"), tr("Preparing the parts"), job, [this, answer](const std::exception_ptr& error) {
     if (error && !isCancelled(error)) emit failed(describe(tr("The parts could not be prepared."), error));
     answer(!error);
   });
@@ -167,12 +233,12 @@ void Document::newScene() {
 void Document::askAndOpen() {
   const QStringList files =
       QFileDialog::getOpenFileNames(window_, tr("Open"), Preferences::lastFolder(), openFilter());
-  if (!files.isEmpty()) dropFiles(files);
+  if (!files.isEmpty()) openInPlace(files);
 }
 
 void Document::openScene(const QString& file) {
   if (isBusy() || !mayLeaveScene()) return;
-  loadScene(file, {}, Preferences::metresPerUnit());
+  loadScene(file, {}, kAnyUnit);
 }
 
 bool Document::openExample(const QString& file) {
@@ -197,7 +263,7 @@ void Document::readScene(const QString& file, const QString& name,
     read->scene = readSceneFile(path, progressOfReading(progress), &read->changed);
     shapes->prepare(read->scene.geometries(), progressOfShapes(progress));
   };
-  load(tr("Opening %1").arg(name), job, [=, this](const std::exception_ptr& error) {
+  load(tr("Opening"), tr("Opening %1").arg(name), job, [=, this](const std::exception_ptr& error) {
     if (!error) {
       QStringList changed;
       for (const std::filesystem::path& mesh : read->changed)
@@ -206,7 +272,10 @@ void Document::readScene(const QString& file, const QString& name,
       if (!changed.isEmpty()) emit meshesHaveChanged(changed);
       return;
     }
-    if (!isCancelled(error)) emit failed(describe(tr("The scene could not be opened."), error));
+    if (isCancelled(error))
+      emit noted(tr("Opening of %1 cancelled. The open scene stays.").arg(shortName(name)));
+    else
+      emit failed(describe(tr("The scene could not be opened."), error));
     emit loaded(false);
   });
 }
@@ -245,13 +314,22 @@ void Document::askAndAddParts() {
   const QStringList files =
       QFileDialog::getOpenFileNames(window_, tr("Add parts"), Preferences::lastFolder(), partFilter());
   if (files.isEmpty()) return;
-  if (const std::optional<double> unit = unitOf(files)) addParts(files, *unit);
+  if (const std::optional<double> unit = unitOf(files, Target::OpenScene)) addParts(files, *unit);
 }
 
-std::optional<double> Document::unitOf(const QStringList& files) {
+std::optional<double> Document::unitOf(const QStringList& files, Target target) {
   const QStringList asked = withoutUnit(files);
-  if (asked.isEmpty()) return Preferences::metresPerUnit();
-  return askForUnit(asked, extentOf(session_.scene()), window_);
+  if (asked.isEmpty()) return kAnyUnit;
+  UnitHints hints = target == Target::OpenScene ? hintsOf(session_.scene()) : UnitHints();
+  const QStringList kinds = foldersOf(asked) + typesOf(asked);
+  for (const QString& kind : kinds) {
+    const auto chosen = chosenUnits_.find(kind);
+    if (!hints.chosen && chosen != chosenUnits_.end()) hints.chosen = chosen->second;
+  }
+  const std::optional<double> unit = askForUnit(asked, hints, window_);
+  for (const QString& kind : kinds)
+    if (unit) chosenUnits_[kind] = *unit;
+  return unit;
 }
 
 /// Files of parts, loaded.
@@ -308,22 +386,32 @@ Document::LoadedFiles Document::loadFiles(const QStringList& files, double metre
 }
 
 void Document::addParts(const QStringList& files, double metresPerUnit) {
+  loadParts(files, metresPerUnit, Target::OpenScene);
+}
+
+void Document::loadParts(const QStringList& files, double metresPerUnit, Target target) {
   if (isBusy() || files.isEmpty()) return;
   Preferences::rememberFolderOf(files.first());
   auto outcome = std::make_shared<LoadedFiles>();
-  const auto job = [outcome, files, metresPerUnit, shapes = shapes_](const ProgressCallback& progress) {
-    *outcome = loadFiles(files, metresPerUnit, progressOfReading(progress));
-    shapes->prepare(outcome->geometries(), progressOfShapes(progress));
+  const bool isAnyDocument =
+      std::ranges::any_of(files, [](const QString& file) { return isDocumentFile(toPath(file)); });
+  const Reading what = isAnyDocument ? Reading::Documents : Reading::Meshes;
+  const auto job = [outcome, files, metresPerUnit, what, shapes = shapes_](const ProgressCallback& progress) {
+    *outcome = loadFiles(files, metresPerUnit, progressOfReading(progress, what));
+    shapes->prepare(outcome->geometries(), progressOfShapes(progress, what));
   };
-  const QString text = files.size() == 1 ? tr("Loading %1").arg(QFileInfo(files.first()).fileName())
-                                         : tr("Loading %n files", nullptr, files.size());
-  load(text, job, [this, outcome, files](const std::exception_ptr& error) {
+  const QString name =
+      files.size() == 1 ? QFileInfo(files.first()).fileName() : tr("%n files", nullptr, files.size());
+  load(tr("Loading"), tr("Loading %1").arg(name), job, [=, this](const std::exception_ptr& error) {
     if (isCancelled(error)) {
+      const QString note = target == Target::NewScene ? tr("Opening of %1 cancelled. The open scene stays.")
+                                                      : tr("Loading of %1 cancelled. Nothing was added.");
+      emit noted(note.arg(shortName(name)));
       emit loaded(false);
       return;
     }
     if (error) outcome->problems << describeItem(nameOfAll(files), error);
-    finishParts(files, *outcome);
+    finishParts(files, *outcome, target);
   });
 }
 
@@ -354,8 +442,23 @@ void Document::tellWarnings(const LoadedFiles& files) {
   if (!said.isEmpty()) emit failed(describeItems(tr("The document was added, but not all of it."), said));
 }
 
-void Document::finishParts(const QStringList& files, const LoadedFiles& loadedFiles) {
-  const Scene& scene = session_.scene();
+std::vector<PartId> Document::place(const NewNodes& nodes, Target target) {
+  if (target == Target::OpenScene) {
+    const SceneNodes top = session_.addNodes(nodes);
+    return partsOf(session_.scene(), top);
+  }
+  // Files of which nothing can be read leave the open scene alone.
+  if (nodes.parts.empty()) return {};
+  Scene scene;
+  const SceneNodes top = addTo(scene, nodes);
+  // It has no file yet.
+  session_.restore(std::move(scene), {});
+  return partsOf(session_.scene(), top);
+}
+
+void Document::finishParts(const QStringList& files, const LoadedFiles& loadedFiles, Target target) {
+  const Scene empty;
+  const Scene& scene = target == Target::NewScene ? empty : session_.scene();
   QVector<FailedItem> problems = loadedFiles.problems;
   NewNodes nodes;
   for (const PartGeometryPtr& geometry : loadedFiles.meshes)
@@ -369,13 +472,13 @@ void Document::finishParts(const QStringList& files, const LoadedFiles& loadedFi
   }
   std::vector<PartId> added;
   try {
-    const SceneNodes top = session_.addNodes(nodes);
-    added = partsOf(session_.scene(), top);
+    added = place(nodes, target);
   } catch (...) {
     problems << describeItem(nameOfAll(files), std::current_exception());
   }
   tellWarnings(loadedFiles);
-  if (!problems.isEmpty()) emit failed(describeItems(notAdded(files, problems), problems));
+  if (!problems.isEmpty())
+    emit failed(notLoaded(files, problems, !added.empty(), target == Target::NewScene));
   if (!added.empty()) emit partsAdded(added);
   emit loaded(problems.isEmpty());
 }
@@ -384,10 +487,22 @@ void Document::openFiles(const QStringList& filesAndFolders, std::optional<doubl
   const DroppedFiles sorted = sortOut(filesAndFolders);
   const bool isLoadable = sorted.scenes.size() <= 1 && !sorted.isCutOff;
   if (!metresPerUnit && isLoadable && !sorted.meshes.isEmpty()) {
-    metresPerUnit = unitOf(sorted.meshes);
+    metresPerUnit = unitOf(sorted.meshes, sorted.scenes.isEmpty() ? Target::OpenScene : Target::NewScene);
     if (!metresPerUnit) return emit loaded(false);
   }
-  open(sorted, metresPerUnit.value_or(Preferences::metresPerUnit()));
+  open(sorted, metresPerUnit.value_or(kAnyUnit));
+}
+
+void Document::openInPlace(const QStringList& filesAndFolders) {
+  if (isBusy()) return;
+  const DroppedFiles sorted = sortOut(filesAndFolders);
+  // With a scene among them, the others are added to that one.
+  if (sorted.isCutOff || !sorted.scenes.isEmpty() || sorted.meshes.isEmpty())
+    return openFiles(filesAndFolders);
+  if (!mayLeaveScene()) return;
+  const std::optional<double> unit = unitOf(sorted.meshes, Target::NewScene);
+  if (!unit) return emit loaded(false);
+  loadParts(sorted.meshes, *unit, Target::NewScene);
 }
 
 void Document::dropFiles(const QStringList& filesAndFolders) {

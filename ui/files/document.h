@@ -4,6 +4,7 @@
 #include <QStringList>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -40,7 +41,7 @@ class Document : public SceneWork {
 
   /// Starts an empty scene after asking about unsaved changes.
   void newScene();
-  /// Lets the user choose a scene, meshes or CAD documents, then opens them as dropFiles() does.
+  /// Lets the user choose a scene, meshes or CAD documents, then calls openInPlace().
   void askAndOpen();
   /// Opens a scene after asking about unsaved changes. Does nothing while busy.
   void openScene(const QString& file);
@@ -62,11 +63,17 @@ class Document : public SceneWork {
   /// Opens any mix of meshes, CAD documents, folders of these and at most one scene. The scene is opened first.
   /// @param metresPerUnit  Of all files that store no unit; std::nullopt: asks once, if there are any.
   void openFiles(const QStringList& filesAndFolders, std::optional<double> metresPerUnit = std::nullopt);
-  /// The same for what is dropped on the window. While busy it only emits noted().
+  /// The same in place of the open scene, after asking about unsaved changes: without a scene among the files, those that
+  /// can be read make up a new scene without a file. The open scene stays if none can, or if loading is cancelled. Does
+  /// nothing while busy.
+  void openInPlace(const QStringList& filesAndFolders);
+  /// As openFiles(), for what is dropped on the window. While busy it only emits noted().
   void dropFiles(const QStringList& filesAndFolders);
   /// Runs a job in another thread behind a progress dialog. Must not be called while busy.
+  /// @param title, text  Of the dialog: "Loading", "Loading bracket.stl".
   /// @param done  Called on the GUI thread with what the job threw, Cancelled included, or null.
-  void load(const QString& text, BackgroundTask::Job job, std::function<void(std::exception_ptr)> done);
+  void load(const QString& title, const QString& text, BackgroundTask::Job job,
+            std::function<void(std::exception_ptr)> done);
   void prepareHierarchies(std::function<void(bool isReady)> done) override;
   /// Saves to the session's file, or asks for one if it has none. False if nothing was written.
   bool save();
@@ -101,23 +108,32 @@ class Document : public SceneWork {
   void open(const DroppedFiles& files, double metresPerUnit);
   bool saveTo(const QString& file);
   struct LoadedFiles;
-  /// Unit for the files that store none, which the user is asked for if there are any; std::nullopt: cancelled.
-  std::optional<double> unitOf(const QStringList& files);
+  enum class Target { OpenScene, NewScene };
+  /// Unit for the files that store none, which the user is asked for if there are any; std::nullopt: cancelled. Offers
+  /// the one that was chosen last for their folder or else for their type, if there is any.
+  std::optional<double> unitOf(const QStringList& files, Target target);
+  void loadParts(const QStringList& files, double metresPerUnit, Target target);
   static LoadedFiles loadFiles(const QStringList& files, double metresPerUnit,
                                const ProgressCallback& progress);
   void tellWarnings(const LoadedFiles& files);
-  void finishParts(const QStringList& files, const LoadedFiles& loadedFiles);
+  void finishParts(const QStringList& files, const LoadedFiles& loadedFiles, Target target);
+  /// Adds the nodes to the open scene, or puts a new scene of them in its place. Returns all parts of them.
+  std::vector<PartId> place(const NewNodes& nodes, Target target);
 
   Session& session_;
   std::shared_ptr<PartShapeCache> shapes_;
   QWidget* window_;
   BackgroundTask task_;
   QPointer<ProgressDialog> progress_;
+  std::map<QString, double> chosenUnits_;  ///< In this run, by folder and by ".type" [m].
   std::vector<std::function<void(bool isReady)>> waiting_;  ///< Unanswered prepareHierarchies() calls.
 };
 
-/// Map the progress of reading meshes, and of building their shapes, to shares of `whole`, about half each.
-ProgressCallback progressOfReading(const ProgressCallback& whole);
-ProgressCallback progressOfShapes(const ProgressCallback& whole);
+/// What is read before shapes are built of it, which decides how long it takes.
+enum class Reading { Meshes, Documents };
+/// Map the progress of reading, and of building shapes, to shares of `whole`: about half each for meshes. Documents are
+/// imported and meshed first, which takes most of the time.
+ProgressCallback progressOfReading(const ProgressCallback& whole, Reading what = Reading::Meshes);
+ProgressCallback progressOfShapes(const ProgressCallback& whole, Reading what = Reading::Meshes);
 
 }  // namespace nearfit::ui

@@ -35,9 +35,9 @@ FileCommands::FileCommands(const Context& context, QWidget* window)
 void FileCommands::makeActions() {
   newScene = makeAction(this, "newScene", tr("&New scene"), QStringLiteral("new"), QKeySequence::New,
                         tr("Start an empty scene"));
-  open =
-      makeAction(this, "open", tr("&Open…"), QStringLiteral("open"), QKeySequence::Open,
-                 tr("Open a scene (*.nearfit) in place of this one, or add meshes and CAD documents to it"));
+  open = makeAction(
+      this, "open", tr("&Open…"), QStringLiteral("open"), QKeySequence::Open,
+      tr("Open a scene (*.nearfit), or meshes and CAD documents as a new scene, in place of this one"));
   openDemo = makeAction(this, "openDemo", tr("Open &demo"), QStringLiteral("demo"), {},
                         tr("Open the demo scene: a piston to fit into its cylinder"));
   addParts = makeAction(this, "addParts", tr("Add &parts…"), QStringLiteral("add"), QStringLiteral("Ctrl+I"),
@@ -118,8 +118,8 @@ void FileCommands::showWhole() {
 }
 
 void FileCommands::showAdded(const std::vector<PartId>& parts) {
-  // The first becomes the current part, which *Take in hand* takes.
-  context_.selection.set({parts.rbegin(), parts.rend()});
+  // Several would all be drawn as selected, which hides the colours of their file.
+  context_.selection.select(parts.size() == 1 ? std::optional(parts.front()) : std::nullopt);
   showWhole();
 }
 

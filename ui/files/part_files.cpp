@@ -198,12 +198,22 @@ void PartFiles::reload(QStringList files) {
   changed_.erase(std::remove_if(changed_.begin(), changed_.end(), isReloaded), changed_.end());
   offerReload();
   load(
-      tr("Reloading %1").arg(files.isEmpty() ? tr("all parts") : namesOf(files)), partsOf(files),
+      {tr("Reloading"), tr("Reloading %1").arg(files.isEmpty() ? tr("all parts") : namesOf(files))},
+      partsOf(files),
       [this](const std::vector<Session::NewGeometry>& renewed) { session_.reloadParts(renewed); },
       tr("Some parts could not be reloaded; they stay as they were."));
 }
 
-void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, const Command& command,
+PartFiles::ProgressText PartFiles::textAbout(const std::vector<Wanted>& parts, const QString& title,
+                                             const QString& text) const {
+  constexpr int kNamed = 3;
+  QStringList names;
+  for (const Wanted& each : parts)
+    names << QString::fromStdString(session_.scene().get(each.part).name);
+  return {title, text.arg(listOfNames(names, kNamed))};
+}
+
+void PartFiles::load(const ProgressText& text, const std::vector<Wanted>& wanted, const Command& command,
                      const QString& failure) {
   std::vector<MeshSource> sources;
   std::vector<std::size_t> sourceOf;
@@ -224,16 +234,19 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, con
   }
   if (sources.empty()) return;
   auto loaded = std::make_shared<std::vector<LoadedPart>>();
-  const auto job = [loaded, sources, shapes = document_.shapes()](const ProgressCallback& progress) {
-    *loaded = loadPartGeometries(sources, progressOfReading(progress));
+  const bool isAnyDocument =
+      std::ranges::any_of(sources, [](const MeshSource& source) { return !source.shape.empty(); });
+  const Reading what = isAnyDocument ? Reading::Documents : Reading::Meshes;
+  const auto job = [loaded, sources, what, shapes = document_.shapes()](const ProgressCallback& progress) {
+    *loaded = loadPartGeometries(sources, progressOfReading(progress, what));
     std::vector<PartGeometryPtr> geometries;
     for (const LoadedPart& part : *loaded) {
       if (part.geometry) geometries.push_back(part.geometry);
     }
-    shapes->prepare(geometries, progressOfShapes(progress));
+    shapes->prepare(geometries, progressOfShapes(progress, what));
   };
-  document_.load(text, job, [=, this](const std::exception_ptr& error) {
-    if (isCancelled(error)) return;
+  document_.load(text.title, text.text, job, [=, this](const std::exception_ptr& error) {
+    if (isCancelled(error)) return emit noted(tr("Cancelled. No part was changed."));
     QVector<FailedItem> problems;
     if (error) problems << describeItem({}, error);
     for (std::size_t i = 0; i < loaded->size(); ++i) {
@@ -320,8 +333,10 @@ bool PartFiles::offerRescaleOfHuge(const std::vector<PartId>& parts) {
   for (const PartId id : parts) {
     const Part& part = scene.get(id);
     const Aabb& own = part.geometry->mesh.bounds();
-    // A unit other than the format's has been chosen by the user.
-    if (part.geometry->file != file || own.isEmpty() || part.geometry->metresPerUnit != 1.0) continue;
+    // A unit other than the format's has been chosen by the user, or is stated.
+    if (part.geometry->file != file || own.isEmpty() || part.geometry->metresPerUnit != 1.0 ||
+        part.geometry->statedUnit != 1.0)
+      continue;
     for (int corner = 0; corner < 8; ++corner) {
       const glm::dvec3 p((corner & 1) != 0 ? own.upper.x : own.lower.x,
                          (corner & 2) != 0 ? own.upper.y : own.lower.y,
@@ -359,7 +374,8 @@ void PartFiles::rescale(const std::vector<PartId>& parts, double factor) {
     const Part* part = session_.scene().find(id);
     if (part != nullptr) wanted.push_back(inUnit(*part, part->geometry->metresPerUnit * factor));
   }
-  loadInUnits(tr("Rescaling"), wanted, tr("The parts could not be rescaled."));
+  loadInUnits(textAbout(wanted, tr("Rescaling"), tr("Rescaling %1")), wanted,
+              tr("The parts could not be rescaled."));
 }
 
 std::vector<PartId> PartFiles::withWholeDocuments(const std::vector<PartId>& parts) const {
@@ -413,9 +429,9 @@ void PartFiles::repair(const std::vector<PartId>& parts, const MeshRepairs& repa
     shapes->prepare(made, progressOfShapes(progress));
   };
   constexpr int kNamed = 3;
-  document_.load(tr("Repairing %1").arg(listOfNames(names, kNamed)), job,
+  document_.load(tr("Repairing"), tr("Repairing %1").arg(listOfNames(names, kNamed)), job,
                  [=, this](const std::exception_ptr& error) {
-                   if (isCancelled(error)) return;
+                   if (isCancelled(error)) return emit noted(tr("Cancelled. No part was changed."));
                    try {
                      if (error) std::rethrow_exception(error);
                      takeRepaired(parts, *repaired);
@@ -459,12 +475,12 @@ void PartFiles::changeUnit(const std::vector<PartId>& parts) {
                .arg(file)});
     }
     const Aabb& bounds = part->geometry->mesh.bounds();
-    const double metresPerUnit = part->geometry->metresPerUnit;
+    const double unit = part->geometry->unitOfNumbers();
     if (bounds.isEmpty()) continue;
     names << QString::fromStdString(part->name);
-    box.add(bounds.lower / metresPerUnit);
-    box.add(bounds.upper / metresPerUnit);
-    if (!present) present = metresPerUnit;
+    box.add(bounds.lower / unit);
+    box.add(bounds.upper / unit);
+    if (!present) present = unit;
   }
   if (!present) return;
   const std::optional<double> unit = askForOtherUnit(names, box.upper - box.lower, *present, window_);
@@ -472,10 +488,12 @@ void PartFiles::changeUnit(const std::vector<PartId>& parts) {
   std::vector<Wanted> wanted;
   for (const PartId id : withWholeDocuments(parts)) {
     const Part* part = session_.scene().find(id);
-    if (part == nullptr || part->geometry == nullptr || part->geometry->metresPerUnit == *unit) continue;
-    wanted.push_back(inUnit(*part, *unit));
+    if (part == nullptr || part->geometry == nullptr) continue;
+    const double metresPerUnit = *unit / part->geometry->statedUnit;
+    if (metresPerUnit != part->geometry->metresPerUnit) wanted.push_back(inUnit(*part, metresPerUnit));
   }
-  loadInUnits(tr("Changing the unit"), wanted, tr("The unit of some parts could not be changed."));
+  loadInUnits(textAbout(wanted, tr("Changing the unit"), tr("Changing the unit of %1")), wanted,
+              tr("The unit of some parts could not be changed."));
 }
 
 void PartFiles::refine(const std::vector<PartId>& parts) {
@@ -500,13 +518,14 @@ void PartFiles::refine(const std::vector<PartId>& parts) {
         throw UsageError("", "a part is being felt", "stop feeling it (F6), then try again");
       session_.refineParts(renewed);
     };
-    load(tr("Refining"), all, apply, failure);
+    load(textAbout(all, tr("Refining"), tr("Refining %1")), all, apply, failure);
   } catch (const UsageError&) {
     emit failed(describe(failure, std::current_exception()));
   }
 }
 
-void PartFiles::loadInUnits(const QString& text, const std::vector<Wanted>& wanted, const QString& failure) {
+void PartFiles::loadInUnits(const ProgressText& text, const std::vector<Wanted>& wanted,
+                            const QString& failure) {
   if (document_.isBusy()) return emit noted(tr("Files are still loading. Try again when they are done."));
   const auto apply = [this](const std::vector<Session::NewGeometry>& renewed) {
     if (renewed.empty()) return;

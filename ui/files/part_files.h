@@ -42,7 +42,7 @@ class PartFiles : public QObject {
   PartFiles(const Context& context, QMenu* menu, QWidget* window, QObject* parent);
 
   /// Asks for another unit of parts, then reads their files in it, as one undo step; poses stay. All parts of
-  /// a glTF or URDF document change together, their positions too. Refuses parts whose file stores its unit, and while a
+  /// a glTF, URDF or 3MF document change together, their positions too. Refuses parts whose file stores its unit, and while a
   /// part is being felt: what is felt must not change its size. Does nothing while the document is busy.
   void changeUnit(const std::vector<PartId>& parts);
   /// Repairs the meshes of parts in another thread, as one undo step; their files stay. Refuses while a part is being
@@ -97,13 +97,19 @@ class PartFiles : public QObject {
   void takeRepaired(const std::vector<PartId>& parts, const Repaired& repaired);
   /// The same part in another unit, from the content that its file had when it was read.
   static Wanted inUnit(const Part& part, double metresPerUnit);
+  /// Of the progress dialog.
+  struct ProgressText {
+    QString title, text;
+  };
+  /// A sentence with %1 for the names of parts.
+  ProgressText textAbout(const std::vector<Wanted>& parts, const QString& title, const QString& text) const;
   /// Reads the files of parts in other units, as one undo step.
-  void loadInUnits(const QString& text, const std::vector<Wanted>& wanted, const QString& failure);
+  void loadInUnits(const ProgressText& text, const std::vector<Wanted>& wanted, const QString& failure);
   using Command = std::function<void(const std::vector<Session::NewGeometry>&)>;
   /// Reads the files of parts again, and gives what is new to a command.
   /// @param text     Shown to the user meanwhile.
   /// @param failure  Shown to the user if it fails.
-  void load(const QString& text, const std::vector<Wanted>& wanted, const Command& command,
+  void load(const ProgressText& text, const std::vector<Wanted>& wanted, const Command& command,
             const QString& failure);
 
   Session& session_;

@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cstddef>
+#include <numbers>
 #include <set>
 
 #include "core/scene/document_load.h"
@@ -24,7 +25,7 @@ namespace {
 
 /// Factor of the buttons *Finer* and *Coarser* on the chord, and with its root on the angle: a chord is as the square
 /// of the angle, so that both tolerances keep their part.
-constexpr double kChordStep = 4.0, kAngleStep = 2.0;
+constexpr double kChordStep = 2.0, kAngleStep = std::numbers::sqrt2;
 /// Shown where the importer does not say what is in effect: a tenth of a millimetre, and twenty degrees [m, rad].
 constexpr Tessellation kUnknown{1e-4, 0.35};
 
@@ -120,9 +121,9 @@ RefineDialog::RefineDialog(const Present& present, QWidget* parent)
   finer->setObjectName(QStringLiteral("refineFiner"));
   coarser->setObjectName(QStringLiteral("refineCoarser"));
   finer->setToolTip(
-      QObject::tr("A quarter of the chord, half the angle: about twice the facets round a cylinder"));
+      QObject::tr("Half the chord and 0.7 times the angle: about 1.4 times the facets round a cylinder"));
   coarser->setToolTip(
-      QObject::tr("Four times the chord, twice the angle: about half the facets round a cylinder"));
+      QObject::tr("Twice the chord and 1.4 times the angle: about 0.7 times the facets round a cylinder"));
   finer->setAutoDefault(false);
   coarser->setAutoDefault(false);
   connect(finer, &QPushButton::clicked, this, [this] { scale(1.0 / kChordStep, 1.0 / kAngleStep); });

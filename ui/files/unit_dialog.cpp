@@ -10,10 +10,13 @@
 #include <QRadioButton>
 #include <QVBoxLayout>
 #include <array>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <memory>
 #include <vector>
+
+#include <glm/geometric.hpp>
 
 #include "core/scene/mesh_unit.h"
 #include "ui/widgets/background_task.h"
@@ -21,7 +24,6 @@
 #include "ui/widgets/format.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/paths.h"
-#include "ui/widgets/preferences.h"
 
 namespace nearfit::ui {
 namespace {
@@ -40,9 +42,6 @@ constexpr std::array<MeshUnit, 7> kMeshUnits = {
      {"ft", QT_TRANSLATE_NOOP("QObject", "Feet"), 0.3048},
      {"m", QT_TRANSLATE_NOOP("QObject", "Metres"), 1.0}}};
 
-/// Length of a grown person's hand, wrist to fingertip: between the medians of women and men. Source: DIN 33402-2 [m].
-constexpr double kHandLength = 0.19;
-
 /// Units, each with the size that it gives. There is no answer before the sizes are shown.
 class UnitDialog : public QDialog {
  public:
@@ -59,10 +58,10 @@ class UnitDialog : public QDialog {
   /// Shows the sizes, and takes an answer from now on.
   /// @param extent  In the files' units.
   void showSizes(const glm::dvec3& extent);
-  /// Reads files in another thread, then shows their sizes. Accepts if none of them can be read.
-  void measure(const QStringList& files);
+  /// Reads files in another thread, then shows their sizes, and checks the unit that is likely by these unless the user
+  /// has chosen one or did so before. Accepts if none of the files can be read.
+  void measure(const QStringList& files, const UnitHints& hints);
 
-  bool hasSizes() const noexcept { return hasSizes_; }
   double metresPerUnit() const { return rows_[static_cast<std::size_t>(group_->checkedId())].metres; }
 
  private:
@@ -81,7 +80,7 @@ class UnitDialog : public QDialog {
   QLabel* known_;
   QPushButton* accept_;
   std::vector<Row> rows_;
-  bool hasSizes_ = false;
+  bool isChosen_ = false;  ///< By the user.
   BackgroundTask task_;
 };
 
@@ -100,6 +99,7 @@ UnitDialog::UnitDialog(const QString& question, const QString& accept, QWidget* 
   // Not of the dialog: then it would not grow with sizes that arrive later.
   text->setMinimumWidth(forFont(*this, 360));
   grid_->setColumnStretch(1, 1);
+  connect(group_, &QButtonGroup::idClicked, this, [this] { isChosen_ = true; });
   for (const MeshUnit& unit : kMeshUnits)
     addRow(unit.key, QObject::tr(unit.name), unit.metres);
   reading_->setText(QObject::tr("Reading the size…"));
@@ -135,8 +135,10 @@ void UnitDialog::addRow(const char* key, const QString& name, double metres) {
 }
 
 UnitDialog::Row* UnitDialog::rowOf(double metres) {
+  // A unit that comes from a correction is off by roundings.
+  constexpr double kRounding = 1e-12;
   for (Row& row : rows_) {
-    if (row.metres == metres) return &row;
+    if (std::abs(row.metres - metres) <= kRounding * metres) return &row;
   }
   return nullptr;
 }
@@ -166,20 +168,21 @@ void UnitDialog::showSizes(const glm::dvec3& extent) {
     row.size->setText(size);
     row.choice->setAccessibleName(QStringLiteral("%1, %2").arg(row.choice->text(), size));
   }
-  hasSizes_ = true;
   reading_->hide();
   accept_->setEnabled(true);
 }
 
-void UnitDialog::measure(const QStringList& files) {
+void UnitDialog::measure(const QStringList& files, const UnitHints& hints) {
   std::vector<std::filesystem::path> paths;
   for (const QString& file : files)
     paths.push_back(toPath(file));
   const auto extent = std::make_shared<std::optional<glm::dvec3>>();
   task_.run(
       [paths, extent](const ProgressCallback& progress) { *extent = extentOfMeshFiles(paths, progress); },
-      [this, extent](const std::exception_ptr& error) {
+      [this, extent, hints](const std::exception_ptr& error) {
         if (error || !*extent) return QDialog::accept();
+        if (!isChosen_ && !hints.chosen)
+          check(likelyMeshUnit(glm::length(**extent), hints.leastSize, hints.mostSize));
         showSizes(**extent);
       });
 }
@@ -205,16 +208,13 @@ QString questionAboutParts(const QStringList& parts) {
 
 }  // namespace
 
-std::optional<double> askForUnit(const QStringList& files, const std::optional<glm::dvec3>& others,
-                                 QWidget* parent) {
+std::optional<double> askForUnit(const QStringList& files, const UnitHints& hints, QWidget* parent) {
+  constexpr double kMillimetre = 1e-3;
   UnitDialog dialog(questionAbout(files), QObject::tr("Add"), parent);
-  dialog.showKnownSizes(others);
-  dialog.check(Preferences::metresPerUnit());
-  dialog.measure(files);
-  if (dialog.exec() != QDialog::Accepted) return std::nullopt;
-  const double metresPerUnit = dialog.metresPerUnit();
-  if (dialog.hasSizes()) Preferences::setMetresPerUnit(metresPerUnit);
-  return metresPerUnit;
+  dialog.showKnownSizes(hints.scene);
+  dialog.check(hints.chosen.value_or(kMillimetre));
+  dialog.measure(files, hints);
+  return dialog.exec() == QDialog::Accepted ? std::optional(dialog.metresPerUnit()) : std::nullopt;
 }
 
 std::optional<double> askForOtherUnit(const QStringList& parts, const glm::dvec3& extent,

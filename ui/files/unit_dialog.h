@@ -10,15 +10,26 @@ class QWidget;
 
 namespace nearfit::ui {
 
+/// Length of a grown person's hand, wrist to fingertip: between the medians of women and men. Source: DIN 33402-2 [m].
+constexpr double kHandLength = 0.19;
+
+/// What is known where a unit is asked for.
+struct UnitHints {
+  /// Extent of what is in the scene [m], shown for comparison beside a hand's; std::nullopt: nothing.
+  std::optional<glm::dvec3> scene = {};
+  /// Diagonals of the smallest and the largest part in the scene [m], or a hand's length if there is none: the unit that
+  /// is offered gives a size near these (likelyMeshUnit()).
+  double leastSize = kHandLength, mostSize = kHandLength;
+  /// Offered instead: metres per unit that the user chose for such files before.
+  std::optional<double> chosen = {};
+};
+
 /// Asks for the unit of mesh files that do not store one. Shows the size that each unit gives them; several
-/// files are measured together. Reads the files in another thread and takes no answer before that. Offers the
-/// unit chosen last and remembers the answer.
-/// @param files   At least one. If none of them can be read, there is nothing to ask: returns the unit chosen
-///                last, and loading the files says what is wrong with them.
-/// @param others  Extent of what is in the scene [m], shown for comparison beside a hand's; std::nullopt: nothing.
+/// files are measured together. Reads the files in another thread and takes no answer before that.
+/// @param files  At least one. If none of them can be read, there is nothing to ask: returns any unit, and loading the
+///               files says what is wrong with them.
 /// @return Metres per unit; std::nullopt if the user cancels.
-std::optional<double> askForUnit(const QStringList& files, const std::optional<glm::dvec3>& others,
-                                 QWidget* parent);
+std::optional<double> askForUnit(const QStringList& files, const UnitHints& hints, QWidget* parent);
 
 /// Asks for another unit of parts that are in the scene. Shows the size that each unit gives them.
 /// @param parts          Their names, for the question.

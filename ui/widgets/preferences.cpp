@@ -11,8 +11,6 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr double kMillimetre = 1e-3;
-
 QVariant value(const char* key, const QVariant& fallback = {}) {
   return QSettings().value(QLatin1String(key), fallback);
 }
@@ -22,16 +20,6 @@ void setValue(const char* key, const QVariant& value) {
 }
 
 }  // namespace
-
-double Preferences::metresPerUnit() {
-  bool isNumber = false;
-  const double unit = value("mesh/metresPerUnit", kMillimetre).toDouble(&isNumber);
-  return isNumber && unit > 0.0 ? unit : kMillimetre;
-}
-
-void Preferences::setMetresPerUnit(double metresPerUnit) {
-  setValue("mesh/metresPerUnit", metresPerUnit);
-}
 
 QString Preferences::lastFolder() {
   const QString last = value("files/folder").toString();

@@ -11,10 +11,6 @@ namespace nearfit::ui {
 /// Settings that the program keeps for a user between runs (QSettings); nothing that belongs to a scene.
 class Preferences {
  public:
-  /// Metres per unit of the mesh files added last; 1e-3 (millimetres) at first.
-  static double metresPerUnit();
-  static void setMetresPerUnit(double metresPerUnit);
-
   /// Folder of the file chosen last; the user's documents folder, or home, at first or
   /// if it no longer exists.
   static QString lastFolder();

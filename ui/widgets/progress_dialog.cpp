@@ -19,10 +19,10 @@ constexpr int kSteps = 1000;
 
 }  // namespace
 
-ProgressDialog::ProgressDialog(const QString& text, QWidget* parent)
+ProgressDialog::ProgressDialog(const QString& title, const QString& text, QWidget* parent)
     : QDialog(parent), bar_(new QProgressBar(this)) {
   setObjectName(QStringLiteral("progressDialog"));
-  setWindowTitle(tr("Loading"));
+  setWindowTitle(title);
   setWindowModality(Qt::WindowModal);
   setMinimumWidth(forFont(*this, 380));
   bar_->setRange(0, kSteps);

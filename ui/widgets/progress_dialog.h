@@ -7,12 +7,13 @@ class QProgressBar;
 
 namespace nearfit::ui {
 
-/// Shows what is being loaded, how far it is, and a button to cancel. Appears only if the work takes a while.
+/// Shows what is being done, how far it is, and a button to cancel. Appears only if the work takes a while.
 class ProgressDialog : public QDialog {
   Q_OBJECT
 
  public:
-  explicit ProgressDialog(const QString& text, QWidget* parent);
+  /// @param title  Names the kind of work: "Loading".
+  ProgressDialog(const QString& title, const QString& text, QWidget* parent);
 
  public slots:
   /// Shows the fraction done, 0 to 1.

@@ -193,11 +193,12 @@ bool TreeCacheFile::readShape(const Sections& from, std::size_t triangles,
   for (const double value : {facts.chord, facts.angle, facts.exactVolume}) {
     if (!(value >= 0.0) || !std::isfinite(value)) return false;
   }
-  if (facts.isExact > 1) return false;
+  if (facts.isExact > 1 || !(facts.statedUnit > 0.0) || !std::isfinite(facts.statedUnit)) return false;
   CachedShape read;
   read.chord = facts.chord;
   read.angle = facts.angle;
   read.exactVolume = facts.exactVolume;
+  read.statedUnit = facts.statedUnit;
   read.isExact = facts.isExact == 1;
   if (hasFaces) {
     const SharedArray<std::uint32_t> faceOf = array<std::uint32_t>(from, Section::FaceOfTriangle);

@@ -30,6 +30,7 @@ struct CachedShape {
   double chord = 0.0, angle = 0.0;                               ///< Tessellation in effect [m, rad].
   double exactVolume = 0.0;                                      ///< Of the exact solid [m^3]; 0 if unknown.
   bool isExact = false;                                          ///< Came from exact surfaces.
+  double statedUnit = 1.0;                                       ///< See PartGeometry.
 };
 
 /// Mesh of a mesh file or of a shape of a CAD document, and what loading found out about it.

@@ -27,7 +27,7 @@ namespace nearfit {
 
 /// Increases by one whenever this layout or the meaning of a field changes. What import and building compute
 /// needs no number: the header carries a fingerprint of their sources (see core/CMakeLists.txt).
-constexpr std::uint32_t kTreeCacheVersion = 5;
+constexpr std::uint32_t kTreeCacheVersion = 6;
 
 /// Bytes of a section that share a checksum: enough work for a thread, and enough blocks in a large file.
 constexpr std::size_t kTreeCacheBlock = std::size_t{2} << 20;
@@ -82,8 +82,9 @@ static_assert(sizeof(MeshFacts) == 232);
 struct ShapeFacts {
   double chord, angle, exactVolume;  ///< See CachedShape.
   std::uint64_t isExact;             ///< 0 or 1.
+  double statedUnit;                 ///< See CachedShape.
 };
-static_assert(sizeof(ShapeFacts) == 32);
+static_assert(sizeof(ShapeFacts) == 40);
 
 /// An ExactSurface, without gaps between its numbers.
 struct ShapeFace {

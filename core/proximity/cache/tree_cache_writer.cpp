@@ -82,7 +82,7 @@ ShapeFace faceOf(const ExactSurface& surface) {
 
 ShapeSections sectionsOf(const CachedShape& shape) {
   ShapeSections sections;
-  sections.facts = {shape.chord, shape.angle, shape.exactVolume, shape.isExact ? 1U : 0U};
+  sections.facts = {shape.chord, shape.angle, shape.exactVolume, shape.isExact ? 1U : 0U, shape.statedUnit};
   if (shape.surfaces != nullptr) {
     for (const ExactSurface& surface : shape.surfaces->faces)
       sections.faces.push_back(faceOf(surface));

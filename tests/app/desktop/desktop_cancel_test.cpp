@@ -9,6 +9,7 @@
 
 #include "core/files/sha256.h"
 #include "core/scene/scene_file.h"
+#include "tests/app/desktop/dialog_answers.h"
 #include "tests/app/desktop/file_drop.h"
 #include "tests/support/mesh_files.h"
 #include "ui/model/parts_model.h"
@@ -63,12 +64,18 @@ struct Pair {
     d.addCubes();
     d.session().save(file);
     d.window().setFailureSink([this](const ui::Failure& failure) { told << failure.summary; });
+    QObject::connect(d.window().statusBar(), &QStatusBar::messageChanged, &d.window(),
+                     [this](const QString& text) { shown << text; });
   }
   /// Moves the first cube to 2.5 mm in x.
   void change() {
     d.clickPart(0, ui::PartsModel::Name);
     d.type<QDoubleSpinBox>("positionX", "2.5");
     QVERIFY(d.window().isWindowModified());
+  }
+  /// The status bar has shown this.
+  void verifyWasSaid(const char* text) {
+    QVERIFY2(shown.contains(QLatin1String(text)), qPrintable(shown.join('\n')));
   }
   void verifyIsThere(double x) {
     QVERIFY(!d.window().document().isBusy());
@@ -80,9 +87,9 @@ struct Pair {
     QVERIFY(d.window().windowTitle().contains(QStringLiteral("pair.nearfit")));
   }
 
+  QStringList told, shown;  ///< Before the window, which fills them.
   DesktopDriver d;
   const fs::path file = d.folder.path() / "pair.nearfit";
-  QStringList told;
 };
 
 }  // namespace
@@ -96,6 +103,7 @@ class DesktopCancelTest : public QObject {
   void cancelWhileASceneOpensKeepsTheOneThatIsThere_data();
   void cancelWhileASceneOpensKeepsTheOneThatIsThere();
   void whatWasToBeDiscardedStaysWhenTheOtherSceneDoesNotCome();
+  void cancelWhileAMeshOpensKeepsTheSceneThatIsThere();
   void progressRisesWhileFilesLoad();
   void reloadTakesTheNewShapeAndUndoBringsTheOldOneBack();
   void reloadOfAFileThatIsGoneIsToldAndReloadsTheOthers();
@@ -146,6 +154,7 @@ void DesktopCancelTest::cancelWhileASceneOpensKeepsTheOneThatIsThere() {
   QTRY_VERIFY(!p.d.window().document().isBusy());
   QCOMPARE(stopped, 1);
   p.verifyIsThere(0.0);
+  p.verifyWasSaid("Opening of large.nearfit cancelled. The open scene stays.");
   QVERIFY(!p.d.window().isWindowModified());
   // What was begun may end later than it was stopped: it does not come then either.
   p.d.add({nameOf(large_[0])});
@@ -186,6 +195,26 @@ void DesktopCancelTest::whatWasToBeDiscardedStaysWhenTheOtherSceneDoesNotCome() 
   pressShortcut(p.d, Qt::Key_Z, Qt::ControlModifier);
   p.verifyIsThere(0.0);
   QVERIFY(!p.d.window().isWindowModified());
+}
+
+void DesktopCancelTest::cancelWhileAMeshOpensKeepsTheSceneThatIsThere() {
+  Pair p;
+  p.change();
+  DialogAnswers answers;
+  answers.expectFile(nameOf(large_[0]))
+      .expectButton(QStringLiteral("unsavedBox"), QDialogButtonBox::Discard)
+      .expectButton(QStringLiteral("unitDialog"), QDialogButtonBox::Ok)
+      .expectButton(QStringLiteral("progressDialog"), QDialogButtonBox::Cancel);
+  pressShortcut(p.d, Qt::Key_O, Qt::ControlModifier);
+  QVERIFY(p.d.window().document().isBusy());
+  QTRY_VERIFY(!p.d.window().document().isBusy());
+  QCOMPARE(answers.faults(), QStringList());
+  p.verifyIsThere(0.0025);
+  p.verifyWasSaid("Opening of large0.stl cancelled. The open scene stays.");
+  QVERIFY(p.d.window().isWindowModified());
+  QVERIFY2(p.told.isEmpty(), qPrintable(p.told.join('\n')));
+  pressShortcut(p.d, Qt::Key_Z, Qt::ControlModifier);
+  p.verifyIsThere(0.0);
 }
 
 void DesktopCancelTest::progressRisesWhileFilesLoad() {
@@ -275,6 +304,7 @@ void DesktopCancelTest::cancelOfAReloadKeepsTheOldShape() {
   QCOMPARE(stopped, 1);
   QCOMPARE(widthOf(p.d.part("ball")), width);
   QCOMPARE(p.d.session().history().size(), steps);
+  p.verifyWasSaid("Cancelled. No part was changed.");
   QVERIFY(p.told.isEmpty());
 }
 

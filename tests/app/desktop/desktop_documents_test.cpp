@@ -3,9 +3,13 @@
 #include <QPushButton>
 #include <QStatusBar>
 #include <atomic>
+#include <chrono>
+#include <cmath>
 #include <memory>
+#include <thread>
 
 #include "core/scene/scene_tree.h"
+#include "tests/app/desktop/dialog_answers.h"
 #include "tests/app/desktop/file_drop.h"
 #include "tests/support/documents.h"
 #include "ui/model/selection.h"
@@ -39,16 +43,20 @@ class DesktopDocumentsTest : public QObject {
  private slots:
   void init() { QSettings().clear(); }
   void aDroppedDocumentKeepsItsTreeAndIsOneStep();
+  void partsThatCameTogetherShowTheirOwnColours();
   void itsUnitIsNotAskedFor();
   void filesWithoutAUnitBesideItAreAskedAboutWithKnownSizes();
   void itsUnitCannotBeChangedAndTheToolTipTellsTheReason();
   void aGltfInMillimetresIsPointedOutAndCorrectedAsAWhole();
+  void a3mfThatStatesAWrongUnitIsCorrectedAsAWhole();
   void refiningAPartTakesItsInstancesAlongAndIsOneStep();
+  void refiningSaysSoWithTheNameOfThePart();
   void finerAndCoarserScaleTheTolerances();
   void meshesCannotBeRefined();
   void aSavedSceneComesBack();
   void aChangedDocumentIsReloadedInPlace();
   void aDocumentThatFailsIsToldAndTheOthersAreAdded();
+  void openReplacesTheSceneByThatOfADocumentUnlessItCannotBeRead();
 };
 
 void DesktopDocumentsTest::aDroppedDocumentKeepsItsTreeAndIsOneStep() {
@@ -64,6 +72,23 @@ void DesktopDocumentsTest::aDroppedDocumentKeepsItsTreeAndIsOneStep() {
   QCOMPARE(d.part("pin").geometry, d.part("pin 2").geometry);
   d.choose("undo");
   QVERIFY(d.session().scene().parts().empty() && d.session().scene().groups().empty());
+}
+
+/// All were selected, and drawn in the blue of a selection.
+void DesktopDocumentsTest::partsThatCameTogetherShowTheirOwnColours() {
+  DocumentDesk d;
+  d.add({d.fixedFile});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  d.window().selection().select(d.partId("fixed"));
+  drop(d.window(), {d.vise});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{4});
+  QTRY_VERIFY(!d.window().document().isBusy());
+  QVERIFY(d.window().selection().isEmpty());
+  // The selection is no part of the step.
+  d.choose("undo");
+  d.choose("redo");
+  QVERIFY(d.window().selection().isEmpty());
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{4});
 }
 
 void DesktopDocumentsTest::itsUnitIsNotAskedFor() {
@@ -135,6 +160,64 @@ void DesktopDocumentsTest::aGltfInMillimetresIsPointedOutAndCorrectedAsAWhole() 
   QCOMPARE(widthOf(d.part("near")), 100.0);
 }
 
+/// Its unit could not be changed.
+void DesktopDocumentsTest::a3mfThatStatesAWrongUnitIsCorrectedAsAWhole() {
+  DesktopDriver d;
+  // It states millimetres, and its numbers are in inches: 4 x 2 x 1 of them.
+  const FakeImporter importer([](const Tessellation&) {
+    CadDocument document;
+    document.statedUnit = 1e-3;
+    document.shapes = {boxShape("block", {4e-3, 2e-3, 1e-3})};
+    document.nodes = {instanceNode("near", -1, 0), instanceNode("far", -1, 0, {{1, 0, 0, 0}, {0.01, 0, 0}})};
+    return document;
+  });
+  drop(d.window(), {nameOf(d.folder.write("blocks.3mf", "in inches"))});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QVERIFY(isNear(widthOf(d.part("near")), 4e-3, 1e-15));
+  const std::size_t steps = d.session().historyIndex();
+  d.window().selection().select(d.partId("far"));
+  QVERIFY(d.action("changeUnit")->isEnabled());
+  QString present, inMillimetres, inInches;
+  DialogAnswers answers;
+  answers.expect(QStringLiteral("unitDialog"), [&](QDialog& question) {
+    for (const QRadioButton* choice : question.findChildren<QRadioButton*>()) {
+      if (choice->isChecked()) present = choice->objectName();
+    }
+    inMillimetres = question.findChild<QLabel*>(QStringLiteral("size-mm"))->text();
+    inInches = question.findChild<QLabel*>(QStringLiteral("size-in"))->text();
+    answerUnit(&question, "in");
+    return true;
+  });
+  d.choose("changeUnit");
+  QTRY_VERIFY(isNear(widthOf(d.part("far")), 0.1016, 1e-12));
+  QCOMPARE(answers.faults(), QStringList());
+  QCOMPARE(present, QStringLiteral("unit-mm"));
+  QCOMPARE(inMillimetres, QStringLiteral("4 × 2 × 1 mm"));
+  QCOMPARE(inInches, QStringLiteral("101.6 × 50.8 × 25.4 mm"));
+  QVERIFY2(isNear(widthOf(d.part("near")), 0.1016, 1e-12), "it changes as a whole");
+  QVERIFY(isNear(d.part("far").worldFromPart.translation.x, 0.254, 1e-12));
+  QCOMPARE(d.session().historyIndex(), steps + 1);
+  // It is offered as the present one, and the scene keeps it.
+  answers.expect(QStringLiteral("unitDialog"), [&](QDialog& question) {
+    const auto* inch = question.findChild<QRadioButton*>(QStringLiteral("unit-in"));
+    present = inch->isChecked() ? inch->text() : QString();
+    question.reject();
+    return true;
+  });
+  d.choose("changeUnit");
+  QVERIFY2(present.contains(QStringLiteral("now")), qPrintable(present));
+  const std::filesystem::path file = d.folder.path() / "blocks.nearfit";
+  d.session().save(file);
+  d.choose("undo");
+  QVERIFY(isNear(widthOf(d.part("near")), 4e-3, 1e-15));
+  QVERIFY(isNear(d.part("far").worldFromPart.translation.x, 0.01, 1e-15));
+  d.session().reset();
+  d.window().document().openScene(nameOf(file));
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QVERIFY(isNear(widthOf(d.part("near")), 0.1016, 1e-12));
+  QVERIFY(isNear(d.part("near").geometry->unitOfNumbers(), 0.0254, 1e-15));
+}
+
 void DesktopDocumentsTest::refiningAPartTakesItsInstancesAlongAndIsOneStep() {
   DocumentDesk d;
   d.open();
@@ -173,6 +256,36 @@ void DesktopDocumentsTest::refiningAPartTakesItsInstancesAlongAndIsOneStep() {
   QVERIFY(d.trianglesOf("pin") > 4 * coarse);
 }
 
+/// Its dialog was called "Loading".
+void DesktopDocumentsTest::refiningSaysSoWithTheNameOfThePart() {
+  DocumentDesk d;
+  d.open();
+  std::atomic<bool> mayEnd{false};
+  const FakeImporter importer([&mayEnd](const Tessellation& tessellation) {
+    while (!mayEnd)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return viseDocument(tessellation);
+  });
+  d.window().selection().select(d.partId("pin"));
+  DialogAnswers answers;
+  answers.expect(QStringLiteral("refineDialog"), [](QDialog& dialog) {
+    QTest::mouseClick(dialog.findChild<QPushButton*>(QStringLiteral("refineFiner")), Qt::LeftButton);
+    QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
+    return !dialog.isVisible();
+  });
+  d.choose("refine");
+  const auto* progress = d.widget<QDialog>("progressDialog");
+  const QString title = progress != nullptr ? progress->windowTitle() : QString();
+  QStringList texts;
+  for (const QLabel* label : progress != nullptr ? progress->findChildren<QLabel*>() : QList<QLabel*>())
+    texts << label->text();
+  mayEnd = true;
+  QTRY_VERIFY(!d.window().document().isBusy());
+  QCOMPARE(answers.faults(), QStringList());
+  QCOMPARE(title, QStringLiteral("Refining"));
+  QVERIFY2(texts.contains(QStringLiteral("Refining pin and pin 2")), qPrintable(texts.join('\n')));
+}
+
 void DesktopDocumentsTest::finerAndCoarserScaleTheTolerances() {
   DocumentDesk d;
   d.open();
@@ -183,8 +296,8 @@ void DesktopDocumentsTest::finerAndCoarserScaleTheTolerances() {
         auto* angle = dialog->findChild<ui::NumberField*>(QStringLiteral("refineAngle"));
         const double before = chord->quantity(), turn = angle->quantity();
         QTest::mouseClick(dialog->findChild<QPushButton*>(QStringLiteral("refineFiner")), Qt::LeftButton);
-        QVERIFY(isNear(chord->quantity(), before / 4.0, 1e-12));
-        QVERIFY(isNear(angle->quantity(), turn / 2.0, 1e-9));
+        QVERIFY(isNear(chord->quantity(), before / 2.0, 1e-12));
+        QVERIFY(isNear(angle->quantity(), turn / std::sqrt(2.0), 1e-9));
         QVERIFY(chord->isEnabled());
         QTest::mouseClick(dialog->findChild<QPushButton*>(QStringLiteral("refineCoarser")), Qt::LeftButton);
         QVERIFY(isNear(chord->quantity(), before, 1e-12));
@@ -258,12 +371,47 @@ void DesktopDocumentsTest::aDocumentThatFailsIsToldAndTheOthersAreAdded() {
     return viseDocument(tessellation);
   });
   QStringList told;
-  d.window().setFailureSink([&](const ui::Failure& failure) { told << failure.details; });
+  d.window().setFailureSink(
+      [&](const ui::Failure& failure) { told << failure.summary + QChar('\n') + failure.details; });
   const QString bad = nameOf(d.folder.write("bad.step", "no vise"));
   drop(d.window(), {bad, d.vise});
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
   QTRY_COMPARE(told.size(), 1);
+  // What, what became of the others, why and what to do.
+  QVERIFY2(told[0].startsWith(QStringLiteral(
+               "“bad.step”, one of 2 files, could not be loaded. The others were added.\n")),
+           qPrintable(told[0]));
   QVERIFY2(told[0].contains(QStringLiteral("ends within an entity")), qPrintable(told[0]));
+  QVERIFY2(told[0].contains(QStringLiteral("xport it again")), qPrintable(told[0]));
+}
+
+void DesktopDocumentsTest::openReplacesTheSceneByThatOfADocumentUnlessItCannotBeRead() {
+  DocumentDesk d;
+  QStringList told;
+  d.window().setFailureSink([&](const ui::Failure& failure) { told << failure.summary; });
+  d.addCubes();
+  d.session().save(d.folder.path() / "pair.nearfit");
+  const QString bad = nameOf(d.folder.write("bad.step", "no vise"));
+  DialogAnswers answers;
+  {
+    const FakeImporter importer([](const Tessellation&) -> CadDocument {
+      throw FileError("bad.step", "it ends within an entity", "export it again");
+    });
+    pressOpen(d, answers, bad);
+    QTRY_COMPARE(told.size(), 1);
+    QTRY_VERIFY(!d.window().document().isBusy());
+  }
+  QCOMPARE(told.first(), QStringLiteral("“bad.step” could not be loaded. The open scene stays."));
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QCOMPARE(d.session().file(), d.folder.path() / "pair.nearfit");
+  QVERIFY(!d.session().isModified());
+  pressOpen(d, answers, d.vise);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
+  QCOMPARE(answers.faults(), QStringList());
+  QCOMPARE(d.part("pin 2").worldFromPart.translation, glm::dvec3(0.1, 0.02, 0.0));
+  QCOMPARE(d.session().scene().groups().size(), std::size_t{2});
+  QVERIFY(d.session().file().empty() && d.session().isModified());
+  QCOMPARE(told.size(), 1);
 }
 
 NEARFIT_QT_SUITE(DesktopDocumentsTest, runDesktopTest<DesktopDocumentsTest>)

@@ -75,8 +75,20 @@ inline QString writeOff(const std::filesystem::path& file, const TriangleMesh& m
   return QString::fromStdString(file.string());
 }
 
+/// Ends a dialog that has not been answered after a long while, and fails the test, which would hang in the call that
+/// opened the dialog.
+inline void endIfUnanswered(QDialog* dialog) {
+  // Later than what `act` may wait for itself.
+  QTimer::singleShot(2 * kQtPatienceMs, dialog, [dialog] {
+    if (!dialog->isVisible()) return;
+    QTest::qFail(qPrintable(QStringLiteral("“%1” was not answered").arg(dialog->objectName())), __FILE__,
+                 __LINE__);
+    dialog->reject();
+  });
+}
+
 /// Waits for a modal dialog of a type and, if given, a name, from inside the call that opens it, and hands it
-/// to `act`.
+/// to `act`, which must answer it. DialogAnswers (dialog_answers.h) answers one dialog after another.
 template <class Dialog>
 void whenModal(std::function<void(Dialog*)> act, const QString& name = {}) {
   auto* timer = new QTimer(qApp);
@@ -87,6 +99,7 @@ void whenModal(std::function<void(Dialog*)> act, const QString& name = {}) {
     if (!name.isEmpty() && dialog->objectName() != name) return;
     timer->stop();
     timer->deleteLater();
+    endIfUnanswered(dialog);
     act(dialog);
   });
   timer->start();

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/dialog_answers.h"
 #include "ui/model/parts_model.h"
 
 using namespace nearfit;
@@ -31,6 +31,7 @@ class DesktopFilesTest : public QObject {
   void emptySceneOffersTheDemo();
   void emptySceneOffersTheScenesOpenedLast();
   void openTakesMeshesToo();
+  void openReplacesTheSceneByThatOfAMesh();
   void savesAndOpensTheSameScene();
   void savingKeepsThePoseInHand();
   void savingKeepsANumberThatIsStillBeingTyped();
@@ -72,19 +73,61 @@ void DesktopFilesTest::emptySceneOffersTheScenesOpenedLast() {
 /// It listed scenes alone.
 void DesktopFilesTest::openTakesMeshesToo() {
   DesktopDriver d;
-  whenModal<QFileDialog>([&](QFileDialog* dialog) {
-    QVERIFY2(dialog->nameFilters().constFirst().contains(QStringLiteral("*.stl")),
-             qPrintable(dialog->nameFilters().constFirst()));
-    whenModal<QDialog>(
-        [](QDialog* question) {
-          QTest::mouseClick(question->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok),
-                            Qt::LeftButton);
-        },
-        QStringLiteral("unitDialog"));
-    chooseFile(dialog, d.fixedFile);
+  DialogAnswers answers;
+  QString filter;
+  answers.expect(QStringLiteral("file"), [&](QDialog& dialog) {
+    filter = qobject_cast<QFileDialog*>(&dialog)->nameFilters().constFirst();
+    chooseFile(qobject_cast<QFileDialog*>(&dialog), d.fixedFile);
+    return !dialog.isVisible();
   });
+  // It takes no answer before the file has been read: a click that came too early left the dialog open for ever.
+  answers.expectButton(QStringLiteral("unitDialog"), QDialogButtonBox::Ok);
   pressShortcut(d, Qt::Key_O, Qt::ControlModifier);
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  QCOMPARE(answers.faults(), QStringList());
+  QVERIFY2(filter.contains(QStringLiteral("*.stl")), qPrintable(filter));
+}
+
+/// It added to the open scene, whose title stayed.
+void DesktopFilesTest::openReplacesTheSceneByThatOfAMesh() {
+  DesktopDriver d;
+  d.addCubes();
+  d.session().save(d.folder.path() / "pair.nearfit");
+  d.session().deletePart(d.partId("moving"));
+  const auto title = [&] { return d.window().windowTitle(); };
+  QVERIFY2(title().contains(QStringLiteral("pair.nearfit")), qPrintable(title()));
+  DialogAnswers answers;
+  answers.expectFile(d.movingFile).expectButton(QStringLiteral("unsavedBox"), QDialogButtonBox::Cancel);
+  pressShortcut(d, Qt::Key_O, Qt::ControlModifier);
+  QCOMPARE(answers.faults(), QStringList());
+  QVERIFY(!d.window().document().isBusy());
+  QVERIFY(d.session().scene().findByName("fixed") != nullptr);
+
+  // A question for the unit that is cancelled is as good.
+  answers.expectFile(d.movingFile)
+      .expectButton(QStringLiteral("unsavedBox"), QDialogButtonBox::Discard)
+      .expectButton(QStringLiteral("unitDialog"), QDialogButtonBox::Cancel);
+  pressShortcut(d, Qt::Key_O, Qt::ControlModifier);
+  QCOMPARE(answers.faults(), QStringList());
+  QVERIFY(!d.window().document().isBusy());
+  QVERIFY(d.session().isModified() && d.session().canUndo());
+  QVERIFY2(title().contains(QStringLiteral("pair.nearfit")), qPrintable(title()));
+
+  answers.expectFile(d.movingFile)
+      .expectButton(QStringLiteral("unsavedBox"), QDialogButtonBox::Discard)
+      .expectButton(QStringLiteral("unitDialog"), QDialogButtonBox::Ok);
+  pressShortcut(d, Qt::Key_O, Qt::ControlModifier);
+  QTRY_VERIFY(d.session().scene().findByName("moving") != nullptr);
+  QCOMPARE(answers.faults(), QStringList());
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{1});
+  QVERIFY(d.session().file().empty());
+  QVERIFY2(!title().contains(QStringLiteral("pair.nearfit")), qPrintable(title()));
+  QVERIFY2(d.session().isModified(), "it is in no file");
+  QVERIFY2(!d.session().canUndo(), "opening is no step, as with a scene file");
+
+  // Parts are still added.
+  d.add({d.fixedFile});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
 }
 
 void DesktopFilesTest::savesAndOpensTheSameScene() {

@@ -145,7 +145,7 @@ void DesktopPartFilesTest::fiftyBadFilesGiveOneBoxWithDetailsToCopy() {
   QTRY_VERIFY(box->isVisible());
   QCOMPARE(d.window().findChildren<QDialog*>(QStringLiteral("errorBox")).size(), 1);
   QCOMPARE(box->findChild<QLabel*>(QStringLiteral("errorSummary"))->text(),
-           QStringLiteral("50 of 51 files were not added."));
+           QStringLiteral("50 of 51 files could not be loaded. The others were added."));
   QVERIFY(box->height() < 700);
   const auto* table = box->findChild<QTableWidget*>(QStringLiteral("errorTable"));
   QCOMPARE(table->rowCount(), 50);
@@ -312,6 +312,9 @@ void DesktopPartFilesTest::cancelOfAMillionTrianglesAnswersBeforeTheImporterDoes
                           Qt::LeftButton);
       },
       QStringLiteral("progressDialog"));
+  QStringList shown;
+  const auto watch = connect(d.window().statusBar(), &QStatusBar::messageChanged, this,
+                             [&](const QString& text) { shown << text; });
   connect(&d.window().document(), &ui::Document::loaded, this,
           [&](bool isComplete) { answeredAfter = isComplete ? -2 : sinceClick.elapsed(); });
   d.add({nameOf(file)});
@@ -321,6 +324,10 @@ void DesktopPartFilesTest::cancelOfAMillionTrianglesAnswersBeforeTheImporterDoes
   qInfo("answered after %lld ms", static_cast<long long>(answeredAfter));
   QVERIFY(!d.window().document().isBusy());
   QVERIFY(d.window().findChild<QDialog*>(QStringLiteral("progressDialog")) == nullptr);
+  // Nothing told that it had ended.
+  disconnect(watch);
+  QVERIFY2(shown.contains(QStringLiteral("Loading of million.stl cancelled. Nothing was added.")),
+           qPrintable(shown.join('\n')));
   // The next file need not wait for the importer to notice.
   d.add({d.fixedFile});
   QTRY_COMPARE_WITH_TIMEOUT(d.session().scene().parts().size(), std::size_t{1}, 60'000);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <variant>
 
@@ -24,6 +25,15 @@ QString sizeIn(QDialog* question, const char* unit) {
   auto* accept = question->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
   [&] { QTRY_VERIFY(accept->isEnabled()); }();
   return question->findChild<QLabel*>(QStringLiteral("size-") + QLatin1String(unit))->text();
+}
+
+/// The unit that a question offers once it shows sizes.
+QString offeredBy(QDialog* question) {
+  sizeIn(question, "mm");
+  for (const QRadioButton* choice : question->findChildren<QRadioButton*>()) {
+    if (choice->isChecked()) return choice->objectName();
+  }
+  return {};
 }
 
 /// Acts on the next question for a unit.
@@ -67,6 +77,8 @@ class DesktopUnitsTest : public QObject {
   void longSizesAreNotClipped();
   void severalFilesAreMeasuredTogether();
   void sizesAreInTheUnitOfLengthShown();
+  void theUnitNearestToTheSizeOfAHandOrTheScenesPartsIsOffered();
+  void theUnitChosenBeforeForTheFolderOrTheTypeIsOffered();
   void filesThatCannotBeReadAreNotAskedAbout();
   void theCommandLineTakesTheSpellingOfTheOtherProgram();
   void anUnattendedRunRefusesToGuessAUnit();
@@ -143,13 +155,78 @@ void DesktopUnitsTest::sizesAreInTheUnitOfLengthShown() {
   d.choose("unit-mm");
 }
 
+/// The unit chosen last was offered, in any run and for any file, and millimetres at first.
+void DesktopUnitsTest::theUnitNearestToTheSizeOfAHandOrTheScenesPartsIsOffered() {
+  DesktopDriver d;
+  // The numbers in the files: 50, 5 and 0.1 along each axis.
+  const std::pair<double, const char*> cases[] = {{50.0, "unit-mm"}, {5.0, "unit-in"}, {0.1, "unit-m"}};
+  for (const auto& [edge, unit] : cases) {
+    const QString file = writeOff(d.folder.path() / "box.off", boxMesh(glm::dvec3(1e-3 * edge)));
+    QString offered;
+    whenAsked([&](QDialog* question) {
+      offered = offeredBy(question);
+      QTest::keyClick(question, Qt::Key_Escape);
+    });
+    d.window().document().openFiles({file});
+    QCOMPARE(offered, QString::fromLatin1(unit));
+  }
+  // Among parts of 5 mm, the file of 5 is in millimetres.
+  d.add({writeOff(d.folder.path() / "small.off", boxMesh(glm::dvec3(5e-3)))});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  const QString file = writeOff(d.folder.path() / "box.off", boxMesh(glm::dvec3(5e-3)));
+  QString offered;
+  whenAsked([&](QDialog* question) {
+    offered = offeredBy(question);
+    QTest::keyClick(question, Qt::Key_Escape);
+  });
+  d.window().document().openFiles({file});
+  QCOMPARE(offered, QStringLiteral("unit-mm"));
+}
+
+void DesktopUnitsTest::theUnitChosenBeforeForTheFolderOrTheTypeIsOffered() {
+  DesktopDriver d;
+  const auto folder = [&](const char* name) {
+    std::filesystem::create_directory(d.folder.path() / name);
+    return d.folder.path() / name;
+  };
+  const auto a = folder("a"), b = folder("b");
+  // All of 50 units: millimetres by their size.
+  const TriangleMesh box = boxMesh(glm::dvec3(0.05));
+  const auto writeObj = [](const std::filesystem::path& file) {
+    std::ofstream(file) << "v 0 0 0\nv 50 0 0\nv 0 50 0\nv 0 0 50\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+    return nameOf(file);
+  };
+  const auto offeredFor = [&](const QString& file, const char* answer) {
+    QString offered;
+    const std::size_t before = d.session().scene().parts().size();
+    whenAsked([&](QDialog* question) {
+      offered = offeredBy(question);
+      answerUnit(question, answer);
+    });
+    d.window().document().openFiles({file});
+    if (!QTest::qWaitFor([&] { return d.session().scene().parts().size() > before; }, kQtPatienceMs))
+      return QStringLiteral("nothing came");
+    d.session().reset();
+    return offered;
+  };
+  QCOMPARE(offeredFor(writeOff(a / "one.off", box), "cm"), QStringLiteral("unit-mm"));
+  QCOMPARE(offeredFor(writeOff(a / "two.off", box), "cm"), QStringLiteral("unit-cm"));
+  // The folder goes before the type, which is known from elsewhere.
+  QCOMPARE(offeredFor(writeOff(b / "one.off", box), "in"), QStringLiteral("unit-cm"));
+  QCOMPARE(offeredFor(writeOff(a / "three.off", box), "cm"), QStringLiteral("unit-cm"));
+  QCOMPARE(offeredFor(writeObj(b / "one.obj"), "in"), QStringLiteral("unit-in"));
+  QCOMPARE(offeredFor(writeObj(folder("c") / "one.obj"), "in"), QStringLiteral("unit-in"));
+}
+
 void DesktopUnitsTest::filesThatCannotBeReadAreNotAskedAbout() {
   DesktopDriver d;
   QStringList told;
-  d.window().setFailureSink([&](const ui::Failure& failure) { told << failure.details; });
+  d.window().setFailureSink(
+      [&](const ui::Failure& failure) { told << failure.summary + QChar('\n') + failure.details; });
   d.window().document().openFiles({nameOf(d.folder.write("bad.off", "OFF\nnonsense\n"))});
   QTRY_COMPARE(told.size(), 1);
-  QVERIFY2(told.first().contains(QStringLiteral("bad.off")), qPrintable(told.first()));
+  QVERIFY2(told.first().startsWith(QStringLiteral("“bad.off” could not be loaded. Nothing was added.\n")),
+           qPrintable(told.first()));
   QVERIFY(d.session().scene().parts().empty());
 }
 

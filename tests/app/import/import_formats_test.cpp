@@ -1,7 +1,9 @@
 // IGES, BREP, glTF, 3MF and URDF, and files compressed by gzip.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -52,6 +54,62 @@ TEST(ImportFormats, FacesOfIgesAreSewnToASolid) {
   EXPECT_EQ(test::unmatchedEdges(document.shapes[0]), 0U);
   EXPECT_GT(test::volumeOf(document.shapes[0]), 0.0);
   EXPECT_EQ(document.nodes[0].name, "box 1");
+}
+
+/// A ball of one face, 20 mm across.
+constexpr const char* kBall = R"(ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION((''),'2;1');
+FILE_NAME('ball','2024-01-01T00:00:00',(''),(''),'','','');
+FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));
+ENDSEC;
+DATA;
+#1=APPLICATION_CONTEXT('');
+#2=PRODUCT_CONTEXT('',#1,'mechanical');
+#3=PRODUCT('ball','ball','',(#2));
+#4=PRODUCT_DEFINITION_FORMATION('','',#3);
+#5=PRODUCT_DEFINITION_CONTEXT('part definition',#1,'design');
+#6=PRODUCT_DEFINITION('','',#4,#5);
+#7=PRODUCT_DEFINITION_SHAPE('','',#6);
+#8=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#12))
+GLOBAL_UNIT_ASSIGNED_CONTEXT((#9,#10,#11))REPRESENTATION_CONTEXT('',''));
+#9=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));
+#10=(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.));
+#11=(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT());
+#12=UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-07),#9,'distance_accuracy_value','');
+#13=ADVANCED_BREP_SHAPE_REPRESENTATION('',(#14,#20),#8);
+#14=AXIS2_PLACEMENT_3D('',#15,#16,#17);
+#15=CARTESIAN_POINT('',(0.,0.,0.));
+#16=DIRECTION('',(0.,0.,1.));
+#17=DIRECTION('',(1.,0.,0.));
+#18=SHAPE_DEFINITION_REPRESENTATION(#7,#13);
+#20=MANIFOLD_SOLID_BREP('',#21);
+#21=CLOSED_SHELL('',(#22));
+#22=ADVANCED_FACE('',(#23),#26,.T.);
+#23=FACE_BOUND('',#24,.T.);
+#24=VERTEX_LOOP('',#25);
+#25=VERTEX_POINT('',#27);
+#26=SPHERICAL_SURFACE('',#14,10.);
+#27=CARTESIAN_POINT('',(0.,0.,-10.));
+ENDSEC;
+END-ISO-10303-21;
+)";
+
+/// OpenCASCADE says nothing while it meshes one face: the bar stood at 15 %.
+TEST(ImportFormats, ProgressGrowsWhileOneFaceIsMeshed) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("ball.step", kBall);
+  std::vector<double> told;
+  const CadDocument document = imported(file, {{1e-7, 0.0}, {}}, [&](double fraction) {
+    if (told.empty() || fraction > told.back()) told.push_back(fraction);
+    return true;
+  });
+  ASSERT_EQ(document.shapes.size(), 1U);
+  EXPECT_GT(document.shapes[0].triangles.size(), 100'000U);
+  EXPECT_NEAR(test::volumeOf(document.shapes[0]), 4.0 / 3.0 * std::numbers::pi * 1e-6, 1e-9);
+  // It takes seconds of processor time, of which each tenth is told.
+  const auto onTheWay = std::ranges::count_if(told, [](double x) { return x > 0.2 && x < 0.9; });
+  EXPECT_GE(onTheWay, 10) << testing::PrintToString(told);
 }
 
 TEST(ImportFormats, BrepHasNoUnit) {
@@ -109,6 +167,7 @@ TEST(ImportFormats, GltfOfInfinitiesIsRefusedInOneSentenceWithARemedyThatHelps) 
 TEST(ImportFormats, ThreeMfBringsItsUnitComponentsAndNames) {
   const CadDocument document = imported(importModel("set.3mf"));
   constexpr double kInch = 0.0254;
+  EXPECT_EQ(document.statedUnit, kInch);
   ASSERT_EQ(document.nodes.size(), 3U);
   EXPECT_EQ(document.nodes[0].name, "set");
   EXPECT_EQ(document.nodes[1].name, "H\xC3\xBClse");

@@ -86,9 +86,11 @@ CadShape& shapeOf(CadDocument& document) {
 }
 
 TEST(DocumentFile, ADocumentComesBackAsItWas) {
-  const CadDocument wanted = tetrahedra();
+  CadDocument wanted = tetrahedra();
+  wanted.statedUnit = 0.0254;
   const CadDocument got = reread(wanted);
   EXPECT_TRUE(got.hasUnit);
+  EXPECT_EQ(got.statedUnit, 0.0254);
   EXPECT_EQ(got.sha256, wanted.sha256);
   EXPECT_EQ(got.warnings, wanted.warnings);
   ASSERT_EQ(got.shapes.size(), 1U);
@@ -253,6 +255,8 @@ TEST(DocumentFile, NumbersThatAreNotFiniteAreRefused) {
     expectRefused([&](CadDocument& d) { shapeOf(d).tessellation.chord = bad; },
                   "tessellation is out of range");
   }
+  for (const double bad : {kNan, kInf, 0.0, -1.0})
+    expectRefused([&](CadDocument& d) { d.statedUnit = bad; }, "out of range");
   expectRefused([&](CadDocument& d) { shapeOf(d).exactVolume = kInf; }, "volume is out of range");
   expectRefused([&](CadDocument& d) { shapeOf(d).exactVolume = -1.0; }, "volume is out of range");
 }

@@ -470,10 +470,33 @@ TEST_F(DocumentLoad, GltfOpensInMetresAndIsReadAgainInAnotherUnit) {
   EXPECT_EQ(step[0].geometry->metresPerUnit, 1.0) << "a STEP file is right";
 }
 
-TEST(DocumentFormats, OnlyGltfAndUrdfMayBeInAnotherUnitThanTheyStore) {
-  for (const char* file : {"a.gltf", "a.GLB", "a.urdf", "a.gltf.gz"})
+TEST_F(DocumentLoad, ThreeMfKeepsTheUnitThatItStatesBesideItsCorrection) {
+  const test::FakeImporter importer([](const Tessellation&) {
+    CadDocument document;
+    document.statedUnit = 1e-3;
+    document.shapes = {test::boxShape("block", {0.1, 0.06, 0.04})};
+    document.nodes = {test::instanceNode("block", -1, 0)};
+    return document;
+  });
+  const std::filesystem::path file = folder_.write("block.3mf", "a block");
+  const LoadedDocument opened = loadDocument(file, 1.0);
+  const PartGeometry& block = *opened.shapes[0];
+  EXPECT_EQ(block.metresPerUnit, 1.0);
+  EXPECT_EQ(block.unitOfNumbers(), 1e-3);
+  EXPECT_TRUE(canChangeUnit(block));
+  // In inches, its numbers give 25.4 times the size.
+  const std::vector<LoadedPart> larger =
+      loadPartGeometries(std::vector<MeshSource>{{file, 25.4, block.sha256, block.shapeKey}});
+  ASSERT_NE(larger[0].geometry, nullptr);
+  EXPECT_EQ(larger[0].geometry->statedUnit, 1e-3);
+  EXPECT_NEAR(larger[0].geometry->unitOfNumbers(), 0.0254, 1e-15);
+  EXPECT_NEAR(larger[0].geometry->mesh.bounds().upper.x, 25.4 * block.mesh.bounds().upper.x, 1e-12);
+}
+
+TEST(DocumentFormats, OnlyGltfUrdfAndThreeMfMayBeInAnotherUnitThanTheyStore) {
+  for (const char* file : {"a.gltf", "a.GLB", "a.urdf", "a.gltf.gz", "a.3mf"})
     EXPECT_TRUE(mayBeInWrongUnit(file)) << file;
-  for (const char* file : {"a.step", "a.iges", "a.3mf", "a.brep", "a.stl", "a"})
+  for (const char* file : {"a.step", "a.iges", "a.brep", "a.stl", "a"})
     EXPECT_FALSE(mayBeInWrongUnit(file)) << file;
   EXPECT_EQ(unitToOpen("a.glb", 0.001), 1.0);
   EXPECT_EQ(unitToOpen("a.stl", 0.001), 0.001);

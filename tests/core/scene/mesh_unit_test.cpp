@@ -1,5 +1,6 @@
 #include "core/scene/mesh_unit.h"
 
+#include <limits>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -36,6 +37,30 @@ TEST(MeshUnit, WhatIsNoUnitIsRefusedWithItsPlace) {
     EXPECT_THAT(error.problem(), testing::HasSubstr("\"mile\""));
     EXPECT_THAT(error.remedy(), testing::HasSubstr("mm"));
   }
+}
+
+constexpr double kHand = 0.19;
+
+TEST(LikelyMeshUnit, IsThatWhoseSizeIsNearestToAHandAndMillimetresInDoubt) {
+  EXPECT_EQ(likelyMeshUnit(53.0, kHand, kHand), 1e-3);
+  EXPECT_EQ(likelyMeshUnit(15.0, kHand, kHand), 1e-3);
+  EXPECT_EQ(likelyMeshUnit(3000.0, kHand, kHand), 1e-3);
+  EXPECT_EQ(likelyMeshUnit(6.0, kHand, kHand), 0.0254);
+  EXPECT_EQ(likelyMeshUnit(0.12, kHand, kHand), 1.0);
+  EXPECT_EQ(likelyMeshUnit(150'000.0, kHand, kHand), 1e-6);
+}
+
+TEST(LikelyMeshUnit, FollowsThePartsThatAreThere) {
+  // 6 mm among parts from 2 mm to 50 mm, and 6 m among parts of a building.
+  EXPECT_EQ(likelyMeshUnit(6.0, 2e-3, 0.05), 1e-3);
+  EXPECT_EQ(likelyMeshUnit(6.0, 3.0, 20.0), 1.0);
+  EXPECT_EQ(likelyMeshUnit(53.0, 2e-5, 1e-4), 1e-6);
+}
+
+TEST(LikelyMeshUnit, IsMillimetresWhereThereIsNoSize) {
+  for (const double size : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                            std::numeric_limits<double>::infinity()})
+    EXPECT_EQ(likelyMeshUnit(size, kHand, kHand), 1e-3) << size;
 }
 
 class ExtentOfMeshFiles : public testing::Test {

@@ -139,5 +139,53 @@ TEST_F(SessionJoints, AnotherUnitScalesTheirPoints) {
   EXPECT_EQ(session_.scene().getJoint(id).onPart.point.x, 0.1);
 }
 
+/// A part of a glTF moved with its document, but the axis in the world that it is kept on stayed.
+TEST_F(SessionJoints, APartOfAGltfIsStillOnItsJointsInAnotherUnit) {
+  const auto inUnit = [](const char* file, double metresPerUnit) {
+    PartGeometry geometry = *test::freshGeometryOf(test::boxMesh(glm::dvec3(metresPerUnit)));
+    geometry.file = file;
+    geometry.metresPerUnit = metresPerUnit;
+    return std::make_shared<const PartGeometry>(geometry);
+  };
+  const RigidTransform turned{glm::angleAxis(0.5, glm::dvec3(0, 0, 1)), {200.0, -30.0, 4.0}};
+  const glm::dvec3 inPart(0.5, 0.25, 0.0), inPlate(0.1, 0.0, 0.3);
+  // Both parts where the joints to each other and to the world keep them.
+  const PartId bolt = session_.addPart(inUnit("/cad/a.glb", 1.0), "Bolt", turned);
+  const PartId plate = session_.addPart(inUnit("/cad/a.glb", 1.0), "Plate",
+                                        {{1, 0, 0, 0}, turned.applyToPoint(inPart) - inPlate});
+  const PartId mesh = session_.addPart(inUnit("/cad/a.stl", 1.0), "Mesh", turned);
+  Joint kept = joint(JointKind::ToPoint);
+  kept.part = bolt;
+  kept.onPart.point = inPart;
+  kept.base = std::nullopt;
+  kept.onBase.point = turned.applyToPoint(inPart);
+  const JointId toWorld = session_.addJoint(kept, turned);
+  kept.base = plate;
+  kept.onBase.point = inPlate;
+  const JointId toPlate = session_.addJoint(kept, turned);
+  kept.part = mesh;
+  kept.base = std::nullopt;
+  kept.onBase.point = {1.0, 2.0, 3.0};
+  const JointId ofMesh = session_.addJoint(kept, turned);
+  const auto gap = [&](JointId id) {
+    const Joint& of = session_.scene().getJoint(id);
+    const auto poseOf = [&](PartId part) { return session_.scene().get(part).worldFromPart; };
+    const RigidTransform worldFromBase = of.base ? poseOf(*of.base) : RigidTransform{};
+    return glm::distance(poseOf(of.part).applyToPoint(of.onPart.point),
+                         worldFromBase.applyToPoint(of.onBase.point));
+  };
+  ASSERT_LT(gap(toWorld), 1e-12);
+  ASSERT_LT(gap(toPlate), 1e-12);
+  session_.rescaleParts({{bolt, inUnit("/cad/a.glb", 1e-3)},
+                         {plate, inUnit("/cad/a.glb", 1e-3)},
+                         {mesh, inUnit("/cad/a.stl", 1e-3)}});
+  EXPECT_LT(gap(toWorld), 1e-14);
+  EXPECT_LT(gap(toPlate), 1e-14);
+  EXPECT_EQ(session_.scene().getJoint(ofMesh).onBase.point, glm::dvec3(1.0, 2.0, 3.0))
+      << "a mesh keeps its pose";
+  session_.undo();
+  EXPECT_LT(gap(toWorld), 1e-12);
+}
+
 }  // namespace
 }  // namespace nearfit::session_joints_test

@@ -86,7 +86,7 @@ void Exporter::write(const SceneExport& what, const QString& file) {
   const auto job = [scene = session_.scene(), pose = poseOfMoving_(), what, path = toPath(file)](
                        const ProgressCallback& progress) { exportScene(scene, pose, what, path, progress); };
   const QString name = QFileInfo(file).fileName();
-  progress_ = new ProgressDialog(tr("Writing %1").arg(name), window_);
+  progress_ = new ProgressDialog(tr("Writing"), tr("Writing %1").arg(name), window_);
   connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
   connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
   task_.run(job, [this, file, name](const std::exception_ptr& error) {

@@ -153,9 +153,9 @@ void DropTool::compute(Kind kind, const std::vector<PartId>& parts, const glm::d
                                   : pushed(scene, parts, direction, progress);
   };
   progress_ = new ProgressDialog(
+      tr("Nearfit"),
       kind == Kind::Drop ? tr("Looking for the first contact") : tr("Pushing until the part is held"),
       window_);
-  progress_->setWindowTitle(tr("Nearfit"));
   connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
   connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
   task_.run(job, [=, this](const std::exception_ptr& error) {

@@ -42,6 +42,7 @@ class CachedShapes : public testing::Test {
     mesh_.shape->angle = 0.3;
     mesh_.shape->exactVolume = 0.123;
     mesh_.shape->isExact = true;
+    mesh_.shape->statedUnit = 0.0254;
     write();
   }
 
@@ -76,6 +77,7 @@ TEST_F(CachedShapes, WhatComesOutIsWhatWentIn) {
   EXPECT_EQ(a.angle, b.angle);
   EXPECT_EQ(a.exactVolume, b.exactVolume);
   EXPECT_EQ(a.isExact, b.isExact);
+  EXPECT_EQ(a.statedUnit, b.statedUnit);
   EXPECT_EQ(a.faceColours, b.faceColours);
   EXPECT_EQ(a.surfaces->faceOfTriangle, b.surfaces->faceOfTriangle);
   ASSERT_EQ(a.surfaces->faces.size(), 6U);
@@ -105,6 +107,8 @@ TEST_F(CachedShapes, NumbersThatAreNoneAreFoundWhateverTheChecksumsSay) {
         << number;
   }
   EXPECT_FALSE(isTakenAfter([](auto& image) { image.set(Section::ShapeFacts, 24, std::uint64_t{2}); }));
+  for (const double unit : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_FALSE(isTakenAfter([unit](auto& image) { image.set(Section::ShapeFacts, 32, unit); })) << unit;
   for (std::size_t number = 0; number < 9; ++number)
     EXPECT_FALSE(isTakenAfter([&](auto& image) { image.set(Section::ShapeFaces, 80 + 8 * number, nan); }))
         << number;
