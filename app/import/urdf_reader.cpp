@@ -5,7 +5,9 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -25,13 +27,14 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include "app/import/companion_list.h"
 #include "app/import/document_builder.h"
 #include "app/import/import_job.h"
 #include "app/import/placed_mesh.h"
 #include "app/import/shape_mesher.h"
 #include "app/import/solid_bodies.h"
-#include "app/import/urdf_files.h"
 #include "core/base/error.h"
+#include "core/import/companion_files.h"
 #include "core/import/document_file.h"
 #include "core/import/mesh_import.h"
 #include "core/text/utf8.h"
@@ -119,7 +122,8 @@ std::string lowerExtension(const std::filesystem::path& file) {
 
 class UrdfReader {
  public:
-  explicit UrdfReader(const ImportJob& job) : job_(job), files_(job), builder_(job) {}
+  explicit UrdfReader(const ImportJob& job)
+      : job_(job), files_(job.file, {job.bytes.data(), job.bytes.size()}), builder_(job) {}
 
   CadDocument read() {
     checkXmlDepth(job_);
@@ -143,7 +147,9 @@ class UrdfReader {
       }
       job_.progress(static_cast<double>(i + 1) / static_cast<double>(links.size()));
     }
-    return builder_.take();
+    CadDocument document = builder_.take();
+    std::move(companions_).giveTo(document);
+    return document;
   }
 
  private:
@@ -163,8 +169,13 @@ class UrdfReader {
 
   void addLink(const urdf::Link& link, const RigidTransform& robotFromLink, std::int32_t top) {
     const std::string name = cleanName(link.name);
-    std::vector<std::pair<LinkGeometry, std::int32_t>> shapes = shapesOf(visualsOf(link), name);
-    if (shapes.empty()) shapes = shapesOf(collisionsOf(link), name);
+    const std::vector<LinkGeometry> visuals = visualsOf(link), collisions = collisionsOf(link);
+    // All of them, whatever is wanted and can be read, so that each run lists the same.
+    for (const std::vector<LinkGeometry>* all : {&visuals, &collisions})
+      for (const LinkGeometry& each : *all)
+        noteMesh(*each.geometry);
+    std::vector<std::pair<LinkGeometry, std::int32_t>> shapes = shapesOf(visuals, name);
+    if (shapes.empty()) shapes = shapesOf(collisions, name);
     if (shapes.empty()) return;
     CadNode node;
     node.parent = top;
@@ -243,6 +254,25 @@ class UrdfReader {
     return shape;
   }
 
+  /// Lists the file of a mesh, once.
+  void noteMesh(const urdf::Geometry& geometry) {
+    if (geometry.type != urdf::Geometry::MESH) return;
+    const std::string& name = static_cast<const urdf::Mesh&>(geometry).filename;
+    if (noted_.insert(name).second) noteFiles(name);
+  }
+
+  void noteFiles(const std::string& name) {
+    const FoundFile found = files_.find(name);
+    // What is never read decides nothing.
+    if (found.problem.empty() && !isReadable(found.path)) return;
+    companions_.add(name, found);
+  }
+
+  static bool isReadable(const std::filesystem::path& mesh) {
+    const std::vector<std::string>& readable = importableExtensions();
+    return std::ranges::find(readable, lowerExtension(mesh)) != readable.end();
+  }
+
   std::int32_t meshShape(const urdf::Mesh& mesh, const std::string& link) {
     const auto [at, isNew] =
         meshes_.try_emplace({mesh.filename, mesh.scale.x, mesh.scale.y, mesh.scale.z}, -1);
@@ -251,12 +281,10 @@ class UrdfReader {
       builder_.warn(fmt::format("Link \"{}\": the mesh {} is left out: {}.", link, mesh.filename, problem));
       return -1;
     };
-    const UrdfFiles::Found found = files_.find(mesh.filename);
+    const FoundFile found = files_.find(mesh.filename);
     if (!found.problem.empty()) return leftOut(found.problem);
-    const std::string extension = lowerExtension(found.path);
-    const std::vector<std::string>& readable = importableExtensions();
-    if (std::ranges::find(readable, extension) == readable.end())
-      return leftOut(extension + " is not read in a URDF file; convert it to STL or OBJ");
+    if (!isReadable(found.path))
+      return leftOut(lowerExtension(found.path) + " is not read in a URDF file; convert it to STL or OBJ");
     const glm::dmat3 scale(mesh.scale.x, 0.0, 0.0, 0.0, mesh.scale.y, 0.0, 0.0, 0.0, mesh.scale.z);
     if (!splitMap(scale)) return leftOut("its scale is zero or not finite");
     at->second = builder_.addShape(mesh.filename);
@@ -267,6 +295,7 @@ class UrdfReader {
       for (const std::string& warning : imported.report.warnings)
         addWarning(shape.warnings, warning);
       builder_.setShape(at->second, std::move(shape));
+      noteFiles(mesh.filename);
     } catch (const FileError& error) {
       return leftOut(error.problem());
     }
@@ -276,6 +305,8 @@ class UrdfReader {
   const ImportJob& job_;
   UrdfFiles files_;
   DocumentBuilder builder_;
+  CompanionList companions_;
+  std::set<std::string> noted_;
   std::map<std::tuple<std::string, double, double, double>, std::int32_t> meshes_;
 };
 

@@ -53,6 +53,13 @@ class SurfaceOnDemand {
   std::shared_ptr<const UnsidedSurface> surface_;
 };
 
+/// A file that a document was read from besides its own.
+struct CompanionFile {
+  std::filesystem::path file;
+  std::string sha256;  ///< Of its bytes, hexadecimal.
+};
+using CompanionFiles = std::vector<CompanionFile>;
+
 /// A mesh file, or a shape of a CAD document, and what is derived from it: mass properties on loading, hierarchy and
 /// unsided surface on demand. Otherwise immutable. Shared by all parts with the same file, unit, shape, tessellation and
 /// repairs.
@@ -72,6 +79,8 @@ struct PartGeometry {
   std::string cacheName = {};
 
   std::string shapeKey = {};  ///< CadShape::key; empty for a mesh file.
+  /// Of the document; null if it has none, or not all are known. Shared by its shapes.
+  std::shared_ptr<const CompanionFiles> companions = {};
   /// As asked for: what the shape is loaded by. Zeros: chosen from its size.
   Tessellation tessellation = {};
   /// In effect; zeros for a mesh file.

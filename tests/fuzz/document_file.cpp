@@ -93,6 +93,9 @@ CadDocument someDocument(ByteSource& bytes) {
   for (std::size_t i = 0, count = bytes.below(40); i < count; ++i)
     document.nodes.push_back(someNode(bytes, i, document.shapes.size()));
   if (bytes.flag()) document.warnings.push_back(someText(bytes));
+  for (std::size_t i = bytes.below(3); i > 0; --i)
+    document.companions.push_back({someText(bytes), std::string(64, 'b')});
+  document.areCompanionsKnown = bytes.flag();
   return document;
 }
 

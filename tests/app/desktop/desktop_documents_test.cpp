@@ -3,8 +3,11 @@
 #include <QPushButton>
 #include <QStatusBar>
 #include <atomic>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 
+#include "core/files/sha256.h"
 #include "core/scene/scene_tree.h"
 #include "tests/app/desktop/file_drop.h"
 #include "tests/support/documents.h"
@@ -48,6 +51,7 @@ class DesktopDocumentsTest : public QObject {
   void meshesCannotBeRefined();
   void aSavedSceneComesBack();
   void aChangedDocumentIsReloadedInPlace();
+  void aChangedCompanionIsOfferedAndReloaded();
   void aDocumentThatFailsIsToldAndTheOthersAreAdded();
 };
 
@@ -248,6 +252,33 @@ void DesktopDocumentsTest::aChangedDocumentIsReloadedInPlace() {
   QCOMPARE(d.trianglesOf("pin"), pins);
   QTRY_COMPARE(told.size(), 1);
   QVERIFY2(told[0].contains(QStringLiteral("no shape")), qPrintable(told[0]));
+}
+
+void DesktopDocumentsTest::aChangedCompanionIsOfferedAndReloaded() {
+  DesktopDriver d;
+  const std::filesystem::path buffer = d.folder.write("block.bin", "0.1");
+  const FakeImporter importer([buffer](const Tessellation&) {
+    double width = 0.0;
+    std::ifstream(buffer) >> width;
+    CadDocument document;
+    document.shapes = {boxShape("block", {width, 0.06, 0.04})};
+    document.nodes = {instanceNode("block", -1, 0)};
+    document.companions = {{"block.bin", sha256OfFile(buffer)}};
+    return document;
+  });
+  drop(d.window(), {nameOf(d.folder.write("block.gltf", "{}"))});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  d.folder.write("block.bin", "0.25");
+  const auto offered = [&]() -> QPushButton* {
+    auto* notice = d.widget<QWidget>("notice-reload");
+    return notice != nullptr && notice->isVisible()
+               ? notice->findChild<QPushButton*>(QStringLiteral("choice1"))
+               : nullptr;
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(offered() != nullptr, 20'000);
+  QTest::mouseClick(offered(), Qt::LeftButton);
+  QTRY_VERIFY(isNear(widthOf(d.part("block")), 0.25, 1e-12));
+  QCOMPARE(importer.runs(), 2);
 }
 
 void DesktopDocumentsTest::aDocumentThatFailsIsToldAndTheOthersAreAdded() {

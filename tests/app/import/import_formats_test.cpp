@@ -1,5 +1,7 @@
 // IGES, BREP, glTF, 3MF and URDF, and files compressed by gzip.
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -7,13 +9,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "core/base/error.h"
+#include "core/files/sha256.h"
 #include "core/import/mesh_import.h"
+#include "core/scene/document_load.h"
 #include "tests/app/import/import_fixture.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/run_process.h"
+#include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::import_formats_test {
@@ -106,6 +113,79 @@ TEST(ImportFormats, GltfOfInfinitiesIsRefusedInOneSentenceWithARemedyThatHelps) 
   EXPECT_THAT(error.remedy(), testing::AllOf(HasSubstr("finite"), testing::Not(HasSubstr("solids"))));
 }
 
+/// Writes tetrahedra.glb as text, its buffer in a file of its own.
+fs::path writeGltfOfTwoFiles(const TemporaryFolder& folder, const std::string& name, const std::string& buffer) {
+  // Twelve bytes of the file's head; each chunk begins with its size, and four bytes that say what it is.
+  const std::string glb = test::readBytes(importModel("tetrahedra.glb"));
+  std::uint32_t size = 0;
+  std::memcpy(&size, glb.data() + 12, sizeof(size));
+  nlohmann::json json = nlohmann::json::parse(glb.substr(20, size));
+  json["buffers"][0]["uri"] = fs::path(buffer).filename().string();
+  folder.write(buffer, glb.substr(28 + size));
+  return folder.write(name, json.dump());
+}
+
+TEST(ImportFormats, GltfListsTheFilesOfItsBuffers) {
+  const TemporaryFolder folder;
+  const CadDocument binary = imported(importModel("tetrahedra.glb"));
+  EXPECT_TRUE(binary.areCompanionsKnown && binary.companions.empty());
+  const CadDocument text = imported(writeGltfOfTwoFiles(folder, "rack.gltf", "rack.bin"));
+  EXPECT_TRUE(text.areCompanionsKnown);
+  ASSERT_EQ(text.companions.size(), 1U);
+  EXPECT_EQ(text.companions[0].name, "rack.bin");
+  EXPECT_EQ(text.companions[0].sha256, sha256OfFile(folder.path() / "rack.bin"));
+  EXPECT_EQ(text.shapes.size(), binary.shapes.size());
+}
+
+TEST(ImportFormats, GltfWhoseBufferIsMissingOrAPipeIsRefusedAndNamesIt) {
+  const TemporaryFolder folder;
+  const fs::path file = writeGltfOfTwoFiles(folder, "rack.gltf", "rack.bin");
+  fs::remove(folder.path() / "rack.bin");
+  EXPECT_THAT(refusal(file).problem(), testing::AllOf(HasSubstr("rack.bin"), HasSubstr("no such file")));
+  ASSERT_EQ(::mkfifo((folder.path() / "rack.bin").c_str(), 0600), 0);
+  EXPECT_THAT(refusal(file).where(), HasSubstr("rack.bin"));
+}
+
+/// A robot of a base with a mesh and an arm of primitives.
+std::string robot(const std::string& mesh) {
+  return R"(<robot name="arm"><link name="base"><visual><origin xyz="0 0 1"/><geometry><mesh filename=")" +
+         mesh +
+         R"(" scale="2 2 2"/></geometry><material name="m"><color rgba="1 0.5 0 1"/></material></visual></link>
+<link name="tip"><collision><geometry><box size="0.2 0.4 0.6"/></geometry></collision></link>
+<joint name="j" type="revolute"><parent link="base"/><child link="tip"/><origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/>
+<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>)";
+}
+
+TEST(ImportFormats, DocumentsOfSeveralFilesComeFromTheCacheUntilOneChanges) {
+  const TemporaryFolder folder, cache;
+  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable where("NEARFIT_CACHE", cache.path().string());
+  fs::create_directories(folder.path() / "arm" / "meshes");
+  folder.write("arm/meshes/cube.stl", test::stlBinary(test::boxMesh(glm::dvec3(1.0), glm::dvec3(0.5))));
+  const fs::path gltf = writeGltfOfTwoFiles(folder, "rack.gltf", "rack.bin"),
+                 urdf = folder.write("arm/arm.urdf", robot("package://arm/meshes/cube.stl")),
+                 buffer = folder.path() / "rack.bin";
+  for (const fs::path& file : {gltf, urdf}) {
+    EXPECT_FALSE(loadDocument(file, 1.0).isFromCache) << file;
+    EXPECT_TRUE(loadDocument(file, 1.0).isFromCache) << file;
+  }
+  // The x of a corner that is at 1 in the first triangle, and of a cube.
+  std::string bytes = test::readBytes(buffer);
+  const float longer = 1.5F;
+  for (std::size_t at = 0; at + 12 <= 144; at += 12) {
+    float x = 0.0F;
+    std::memcpy(&x, bytes.data() + at, sizeof(x));
+    if (x == 1.0F) std::memcpy(bytes.data() + at, &longer, sizeof(longer));
+  }
+  folder.write("rack.bin", bytes);
+  folder.write("arm/meshes/cube.stl", test::stlBinary(test::boxMesh(glm::dvec3(3.0), glm::dvec3(0.5))));
+  const LoadedDocument rack = loadDocument(gltf, 1.0), arm = loadDocument(urdf, 1.0);
+  EXPECT_FALSE(rack.isFromCache || arm.isFromCache);
+  EXPECT_NEAR(rack.shapes[0]->mesh.bounds().upper.x, 1.5, 1e-6);
+  EXPECT_NEAR(arm.shapes[0]->mass.volume, 8.0 * 27.0, 1e-6);
+  EXPECT_TRUE(loadDocument(gltf, 1.0).isFromCache && loadDocument(urdf, 1.0).isFromCache);
+}
+
 TEST(ImportFormats, ThreeMfBringsItsUnitComponentsAndNames) {
   const CadDocument document = imported(importModel("set.3mf"));
   constexpr double kInch = 0.0254;
@@ -130,16 +210,6 @@ TEST(ImportFormats, ThreeMfBringsTheColourOfAnObjectsMaterial) {
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_NEAR((*document.nodes[i].colour)[k], wanted[k], 1e-6);
   }
-}
-
-/// A robot of a base with a mesh and an arm of primitives.
-std::string robot(const std::string& mesh) {
-  return R"(<robot name="arm"><link name="base"><visual><origin xyz="0 0 1"/><geometry><mesh filename=")" +
-         mesh +
-         R"(" scale="2 2 2"/></geometry><material name="m"><color rgba="1 0.5 0 1"/></material></visual></link>
-<link name="tip"><collision><geometry><box size="0.2 0.4 0.6"/></geometry></collision></link>
-<joint name="j" type="revolute"><parent link="base"/><child link="tip"/><origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/>
-<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>)";
 }
 
 /// A folder of a package with the robot in urdf/ and a cube of 1 m in meshes/.
@@ -176,6 +246,18 @@ TEST(ImportFormats, UrdfPlacesLinksByTheirJointsAtZero) {
   expectBox(boxOf(document.shapes[static_cast<std::size_t>(document.nodes[2].shape)],
                   test::worldFromNode(document, 2)),
             {0.8, 1.9, 2.7}, {1.2, 2.1, 3.3});
+}
+
+TEST(ImportFormats, UrdfListsItsMeshesWhateverIsWantedOfIt) {
+  const Package package("package://arm_description/meshes/cube.stl");
+  for (const std::vector<std::string>& wanted : {std::vector<std::string>(), std::vector<std::string>{"tip box"}}) {
+    const CadDocument document = imported(package.file(), {{}, wanted});
+    EXPECT_TRUE(document.areCompanionsKnown);
+    ASSERT_EQ(document.companions.size(), 1U);
+    EXPECT_EQ(document.companions[0].name, "package://arm_description/meshes/cube.stl");
+    EXPECT_EQ(document.companions[0].sha256, sha256OfFile(package.root() / "meshes/cube.stl"));
+  }
+  EXPECT_FALSE(imported(Package("../meshes/missing.stl").file()).areCompanionsKnown);
 }
 
 TEST(ImportFormats, UrdfFindsMeshesWithinItsPackage) {
