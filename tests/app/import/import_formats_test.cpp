@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -144,6 +145,33 @@ TEST(ImportFormats, GltfWhoseBufferIsMissingOrAPipeIsRefusedAndNamesIt) {
   EXPECT_THAT(refusal(file).problem(), testing::AllOf(HasSubstr("rack.bin"), HasSubstr("no such file")));
   ASSERT_EQ(::mkfifo((folder.path() / "rack.bin").c_str(), 0600), 0);
   EXPECT_THAT(refusal(file).where(), HasSubstr("rack.bin"));
+}
+
+TEST(ImportFormats, ThreeMfBringsColoursOfTrianglesAsFaces) {
+  const CadDocument document = imported(importModel("colours.3mf"));
+  ASSERT_EQ(document.shapes.size(), 3U);
+  ASSERT_EQ(document.nodes.size(), 3U);
+  const CadColour red{1.0F, 0.0F, 0.0F}, teal{0.0F, 128.0F / 255.0F, 64.0F / 255.0F}, blue{0.0F, 0.0F, 1.0F};
+  const CadShape& mixed = document.shapes[0];
+  EXPECT_EQ(document.nodes[0].colour, red);
+  ASSERT_EQ(mixed.triangles.size(), 4U);
+  // The object's colour is the part's, and can be changed with it.
+  EXPECT_EQ(mixed.faceColours, (std::vector<std::optional<CadColour>>{std::nullopt, teal, blue}));
+  EXPECT_THAT(mixed.surfaces.faceOfTriangle, testing::ElementsAre(0, 1, 2, 2));
+  for (const ExactSurface& surface : mixed.surfaces.faces)
+    EXPECT_EQ(surface.kind, SurfaceKind::Other);
+  EXPECT_FALSE(mixed.isExact);
+}
+
+TEST(ImportFormats, ThreeMfObjectWhoseTrianglesHaveOneColourIsAPartOfThatColour) {
+  const CadDocument document = imported(importModel("colours.3mf"));
+  ASSERT_EQ(document.shapes.size(), 3U);
+  EXPECT_EQ(document.nodes[1].colour, (CadColour{0.0F, 1.0F, 0.0F}));
+  EXPECT_FALSE(document.nodes[2].colour.has_value());
+  for (const std::size_t i : {1U, 2U}) {
+    EXPECT_TRUE(document.shapes[i].surfaces.faces.empty()) << i;
+    EXPECT_TRUE(document.shapes[i].faceColours.empty()) << i;
+  }
 }
 
 /// A robot of a base with a mesh and an arm of primitives.
@@ -324,7 +352,7 @@ TEST(ImportFormats, FilesOfAnotherFormatThanTheirNameSaysAreRefused) {
 
 TEST(ImportFormats, EachPrefixOfASmallFileIsReadOrRefused) {
   const TemporaryFolder folder;
-  for (const char* name : {"box.brep", "set.3mf", "tetrahedra.glb", "box.igs", "two_solids.step"}) {
+  for (const char* name : {"box.brep", "set.3mf", "colours.3mf", "tetrahedra.glb", "box.igs", "two_solids.step"}) {
     const std::string bytes = test::readBytes(importModel(name));
     for (std::size_t k = 1; k < 12; ++k) {
       try {
