@@ -115,13 +115,21 @@ TEST(ImportFormats, GltfOfInfinitiesIsRefusedInOneSentenceWithARemedyThatHelps) 
 }
 
 /// Writes tetrahedra.glb as text, its buffer in a file of its own.
-fs::path writeGltfOfTwoFiles(const TemporaryFolder& folder, const std::string& name, const std::string& buffer) {
+/// @param isBlueMoved  The second tetrahedron is blue instead of green.
+fs::path writeGltfOfTwoFiles(const TemporaryFolder& folder, const std::string& name, const std::string& buffer,
+                             bool isBlueMoved = false) {
   // Twelve bytes of the file's head; each chunk begins with its size, and four bytes that say what it is.
   const std::string glb = test::readBytes(importModel("tetrahedra.glb"));
   std::uint32_t size = 0;
   std::memcpy(&size, glb.data() + 12, sizeof(size));
   nlohmann::json json = nlohmann::json::parse(glb.substr(20, size));
   json["buffers"][0]["uri"] = fs::path(buffer).filename().string();
+  if (isBlueMoved) {
+    json["meshes"].push_back(json["meshes"][0]);
+    json["meshes"][1]["primitives"][0]["material"] = 1;
+    json["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorFactor", {0.0, 0.0, 1.0, 1.0}}}}});
+    json["nodes"][2]["mesh"] = 1;
+  }
   folder.write(buffer, glb.substr(28 + size));
   return folder.write(name, json.dump());
 }
@@ -307,6 +315,74 @@ TEST(ImportFormats, UrdfReadsNothingOutsideOfItsPackage) {
   }
 }
 
+/// A robot of a mesh, in a colour if that is given.
+std::string robotOf(const std::string& mesh, const std::string& rgba = {}) {
+  const std::string material =
+      rgba.empty() ? std::string() : R"(<material name="m"><color rgba=")" + rgba + R"("/></material>)";
+  return R"(<robot name="arm"><link name="base"><visual><origin xyz="0 0 1"/><geometry><mesh filename=")" + mesh +
+         R"(" scale="2 2 2"/></geometry>)" + material + "</visual></link></robot>";
+}
+
+TEST(ImportFormats, UrdfTakesAGltfFileAsOneShapeOfAllItsNodes) {
+  const TemporaryFolder folder;
+  folder.write("rack.glb", test::readBytes(importModel("tetrahedra.glb")));
+  const CadDocument document = imported(folder.write("arm.urdf", robotOf("rack.glb")));
+  ASSERT_EQ(document.shapes.size(), 1U);
+  ASSERT_EQ(document.nodes.size(), 2U);
+  EXPECT_TRUE(document.warnings.empty());
+  // The glTF file by itself is 3 x 2 x 5 m large, of which y, up in the file, is z; here it is twice that, 1 m up.
+  expectBox(boxOf(document), {0, -4, 1}, {6, 0, 11});
+  const CadShape& shape = document.shapes[0];
+  EXPECT_EQ(shape.triangles.size(), 12U);
+  EXPECT_EQ(test::unmatchedEdges(shape), 0U);
+  // Two tetrahedra of a sixth, and one of twice the size, all twice as large.
+  EXPECT_NEAR(test::volumeOf(shape), 8.0 * (2.0 + 8.0) / 6.0, 1e-12);
+  EXPECT_EQ(document.nodes[1].name, "base");
+  EXPECT_EQ(document.nodes[1].colour, (CadColour{0.0F, 1.0F, 0.0F}));
+  EXPECT_TRUE(shape.faceColours.empty());
+}
+
+TEST(ImportFormats, UrdfKeepsTheColoursOfAGltfFileUnlessItGivesOneItself) {
+  const TemporaryFolder folder;
+  writeGltfOfTwoFiles(folder, "rack.gltf", "rack.bin", true);
+  const CadDocument plain = imported(folder.write("plain.urdf", robotOf("rack.gltf")));
+  ASSERT_EQ(plain.shapes.size(), 1U);
+  const CadColour green{0.0F, 1.0F, 0.0F}, blue{0.0F, 0.0F, 1.0F};
+  EXPECT_FALSE(plain.nodes.at(1).colour.has_value());
+  EXPECT_EQ(plain.shapes[0].faceColours, (std::vector<std::optional<CadColour>>{green, blue}));
+  EXPECT_EQ(plain.shapes[0].surfaces.faceOfTriangle,
+            (std::vector<std::uint32_t>{0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0}));
+  const CadDocument red = imported(folder.write("red.urdf", robotOf("rack.gltf", "1 0 0 1")));
+  ASSERT_EQ(red.shapes.size(), 1U);
+  EXPECT_EQ(red.nodes.at(1).colour, (CadColour{1.0F, 0.0F, 0.0F}));
+  EXPECT_TRUE(red.shapes[0].faceColours.empty());
+}
+
+TEST(ImportFormats, UrdfListsTheBuffersOfItsGltfFilesToo) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "arm" / "meshes");
+  folder.write("arm/package.xml", "<package/>");
+  writeGltfOfTwoFiles(folder, "arm/meshes/rack.gltf", "arm/meshes/rack.bin");
+  const fs::path file = folder.write("arm/arm.urdf", robotOf("package://arm/meshes/rack.gltf"));
+  const CadDocument document = imported(file);
+  EXPECT_TRUE(document.areCompanionsKnown);
+  ASSERT_EQ(document.companions.size(), 2U);
+  EXPECT_EQ(document.companions[0].name, "package://arm/meshes/rack.gltf");
+  EXPECT_EQ(document.companions[1].name, "package://arm/meshes/rack.bin");
+  EXPECT_EQ(document.companions[1].sha256, sha256OfFile(folder.path() / "arm/meshes/rack.bin"));
+}
+
+TEST(ImportFormats, UrdfLeavesOutAGltfFileThatIsDamagedOrLacksItsBuffer) {
+  const TemporaryFolder folder;
+  writeGltfOfTwoFiles(folder, "rack.gltf", "rack.bin");
+  fs::remove(folder.path() / "rack.bin");
+  EXPECT_THAT(refusal(folder.write("a.urdf", robotOf("rack.gltf"))).problem(),
+              testing::AllOf(HasSubstr("rack.gltf is left out"), HasSubstr("rack.bin")));
+  folder.write("rack.glb", "glTF");
+  EXPECT_THAT(refusal(folder.write("b.urdf", robotOf("rack.glb"))).problem(),
+              testing::AllOf(HasSubstr("rack.glb is left out"), HasSubstr("cut off")));
+}
+
 TEST(ImportFormats, UrdfSaysThatColladaIsNotRead) {
   const Package package("../meshes/arm.dae");
   {
@@ -314,7 +390,7 @@ TEST(ImportFormats, UrdfSaysThatColladaIsNotRead) {
   }
   const CadDocument document = imported(package.file());
   ASSERT_EQ(document.warnings.size(), 1U);
-  EXPECT_THAT(document.warnings[0], HasSubstr("dae is not read"));
+  EXPECT_THAT(document.warnings[0], testing::AllOf(HasSubstr("COLLADA (.dae) is not read"), HasSubstr("glTF")));
 }
 
 TEST(ImportFormats, TheRobotBesideTheRepositoryOpensWithAllLinks) {
