@@ -161,8 +161,9 @@ CadShape triangleShape(std::span<const glm::dvec3> vertices, std::span<const Tri
   }
   shape.surfaces.faces.resize(shape.faceColours.size());
   if (colours.areTooMany())
-    addWarning(shape.warnings, fmt::format("It has more than {} colours; triangles of others have that of the part.",
-                                           TriangleColours::kMaxColours));
+    addWarning(shape.warnings,
+               fmt::format("It has more than {} colours; triangles of others have that of the part.",
+                           TriangleColours::kMaxColours));
   if (bad > 0)
     addWarning(shape.warnings,
                fmt::format("{} triangles with corners that are missing or not finite were left out.", bad));

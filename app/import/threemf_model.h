@@ -27,7 +27,8 @@ struct ThreeMfObject {
   std::vector<Triangle> triangles;
   std::vector<ThreeMfPlacement> components;
   std::optional<CadColour> colour;  ///< Of its triangles that have none of their own.
-  TriangleColours triangleColours;  ///< Of base materials and groups of colours; empty, or one for each triangle.
+  /// Of base materials and groups of colours; empty, or one for each triangle.
+  TriangleColours triangleColours;
 };
 
 /// A 3MF file as lib3mf reads it. Its two versions differ in all names, so that each has a source file of its own.

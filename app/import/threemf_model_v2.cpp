@@ -102,8 +102,8 @@ class Library {
     const ColourGroup& of = groupOf(group);
     if (of.materials == nullptr && of.colours == nullptr) return std::nullopt;
     try {
-      const Lib3MF::sColor colour = of.materials != nullptr ? of.materials->GetDisplayColor(property)
-                                                            : of.colours->GetColor(property);
+      const Lib3MF::sColor colour =
+          of.materials != nullptr ? of.materials->GetDisplayColor(property) : of.colours->GetColor(property);
       at->second = threeMfColour(colour.m_Red, colour.m_Green, colour.m_Blue);
     } catch (const Lib3MF::ELib3MFException&) {
       at->second = std::nullopt;

@@ -83,9 +83,8 @@ class ThreeMfReader {
     if (!variant.empty()) key += " x " + variant;
     at->second = builder_.addShape(key);
     if (builder_.isWanted(at->second))
-      builder_.setShape(at->second,
-                        triangleShape(object.vertices, object.triangles, rest * model_.metresPerUnit,
-                                      object.triangleColours));
+      builder_.setShape(at->second, triangleShape(object.vertices, object.triangles,
+                                                  rest * model_.metresPerUnit, object.triangleColours));
     return at->second;
   }
 

@@ -374,8 +374,9 @@ class UrdfReader {
     at->second = builder_.addShape(mesh.filename);
     if (!builder_.isWanted(at->second)) return at->second;
     try {
-      builder_.setShape(at->second, isGltf(found.path) ? gltfShape(found.path, scale, at->second, dropsColours)
-                                                       : meshFileShape(found.path, scale));
+      builder_.setShape(at->second, isGltf(found.path)
+                                        ? gltfShape(found.path, scale, at->second, dropsColours)
+                                        : meshFileShape(found.path, scale));
       noteFiles(mesh.filename);
     } catch (const FileError& error) {
       return leftOut(error.problem());

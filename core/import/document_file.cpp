@@ -154,7 +154,8 @@ void checkCompanions(const std::vector<CadCompanion>& companions) {
   std::unordered_set<std::string_view> names;
   for (std::size_t i = 0; i < companions.size(); ++i) {
     const std::string where = fmt::format("companion {}", i);
-    require(isCompanionName(companions[i].name), where, "its name is too long, absolute or no printable text");
+    require(isCompanionName(companions[i].name), where,
+            "its name is too long, absolute or no printable text");
     require(isSha256(companions[i].sha256), where, "its checksum is no SHA-256");
     require(names.insert(companions[i].name).second, where, "its name repeats");
   }

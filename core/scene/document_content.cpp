@@ -68,8 +68,7 @@ std::optional<DocumentContent> contentOnDisk(const fs::path& file, const std::st
                                              const std::function<void(double fraction)>& onProgress) {
   if (!mayHaveCompanions(file)) return contentOfAll(sha256, {}, {});
   const std::optional<std::string> text = TreeCache().findText(companionsKeyOf(sha256));
-  const std::optional<std::vector<std::string>> names =
-      text ? readCompanionNames(*text, file) : std::nullopt;
+  const std::optional<std::vector<std::string>> names = text ? readCompanionNames(*text, file) : std::nullopt;
   if (!names) return std::nullopt;
   const CompanionFinder finder(file, *names);
   CompanionFiles files;

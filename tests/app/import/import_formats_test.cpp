@@ -116,8 +116,8 @@ TEST(ImportFormats, GltfOfInfinitiesIsRefusedInOneSentenceWithARemedyThatHelps) 
 
 /// Writes tetrahedra.glb as text, its buffer in a file of its own.
 /// @param isBlueMoved  The second tetrahedron is blue instead of green.
-fs::path writeGltfOfTwoFiles(const TemporaryFolder& folder, const std::string& name, const std::string& buffer,
-                             bool isBlueMoved = false) {
+fs::path writeGltfOfTwoFiles(const TemporaryFolder& folder, const std::string& name,
+                             const std::string& buffer, bool isBlueMoved = false) {
   // Twelve bytes of the file's head; each chunk begins with its size, and four bytes that say what it is.
   const std::string glb = test::readBytes(importModel("tetrahedra.glb"));
   std::uint32_t size = 0;
@@ -286,7 +286,8 @@ TEST(ImportFormats, UrdfPlacesLinksByTheirJointsAtZero) {
 
 TEST(ImportFormats, UrdfListsItsMeshesWhateverIsWantedOfIt) {
   const Package package("package://arm_description/meshes/cube.stl");
-  for (const std::vector<std::string>& wanted : {std::vector<std::string>(), std::vector<std::string>{"tip box"}}) {
+  for (const std::vector<std::string>& wanted :
+       {std::vector<std::string>(), std::vector<std::string>{"tip box"}}) {
     const CadDocument document = imported(package.file(), {{}, wanted});
     EXPECT_TRUE(document.areCompanionsKnown);
     ASSERT_EQ(document.companions.size(), 1U);
@@ -319,8 +320,8 @@ TEST(ImportFormats, UrdfReadsNothingOutsideOfItsPackage) {
 std::string robotOf(const std::string& mesh, const std::string& rgba = {}) {
   const std::string material =
       rgba.empty() ? std::string() : R"(<material name="m"><color rgba=")" + rgba + R"("/></material>)";
-  return R"(<robot name="arm"><link name="base"><visual><origin xyz="0 0 1"/><geometry><mesh filename=")" + mesh +
-         R"(" scale="2 2 2"/></geometry>)" + material + "</visual></link></robot>";
+  return R"(<robot name="arm"><link name="base"><visual><origin xyz="0 0 1"/><geometry><mesh filename=")" +
+         mesh + R"(" scale="2 2 2"/></geometry>)" + material + "</visual></link></robot>";
 }
 
 TEST(ImportFormats, UrdfTakesAGltfFileAsOneShapeOfAllItsNodes) {
@@ -390,7 +391,8 @@ TEST(ImportFormats, UrdfSaysThatColladaIsNotRead) {
   }
   const CadDocument document = imported(package.file());
   ASSERT_EQ(document.warnings.size(), 1U);
-  EXPECT_THAT(document.warnings[0], testing::AllOf(HasSubstr("COLLADA (.dae) is not read"), HasSubstr("glTF")));
+  EXPECT_THAT(document.warnings[0],
+              testing::AllOf(HasSubstr("COLLADA (.dae) is not read"), HasSubstr("glTF")));
 }
 
 TEST(ImportFormats, TheRobotBesideTheRepositoryOpensWithAllLinks) {
@@ -428,7 +430,8 @@ TEST(ImportFormats, FilesOfAnotherFormatThanTheirNameSaysAreRefused) {
 
 TEST(ImportFormats, EachPrefixOfASmallFileIsReadOrRefused) {
   const TemporaryFolder folder;
-  for (const char* name : {"box.brep", "set.3mf", "colours.3mf", "tetrahedra.glb", "box.igs", "two_solids.step"}) {
+  for (const char* name :
+       {"box.brep", "set.3mf", "colours.3mf", "tetrahedra.glb", "box.igs", "two_solids.step"}) {
     const std::string bytes = test::readBytes(importModel(name));
     for (std::size_t k = 1; k < 12; ++k) {
       try {

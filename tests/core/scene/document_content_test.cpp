@@ -91,8 +91,9 @@ TEST_F(ContentOfADocument, NamesOutsideOfTheFolderAreNotFollowed) {
 TEST_F(ContentOfADocument, NamesOfAUrdfFileAreFoundAsTheImporterFindsThem) {
   const fs::path urdf = folder_.write("arm/urdf/arm.urdf", "<robot/>");
   const fs::path mesh = folder_.write("arm/meshes/cube.stl", "a cube");
-  for (const std::string& name : {std::string("../meshes/cube.stl"), std::string("package://arm/meshes/cube.stl"),
-                                  std::string("package://renamed/meshes/cube.stl")}) {
+  for (const std::string& name :
+       {std::string("../meshes/cube.stl"), std::string("package://arm/meshes/cube.stl"),
+        std::string("package://renamed/meshes/cube.stl")}) {
     forge(urdf, {name});
     const std::optional<DocumentContent> content = found(urdf);
     ASSERT_TRUE(content) << name;

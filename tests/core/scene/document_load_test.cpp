@@ -184,7 +184,8 @@ class DocumentOfTwoFiles : public DocumentLoad {
   void writeHeight(const std::string& height) const { folder_.write("box.bin", height); }
   double loadedHeight() const { return loadDocument(gltf_, 1.0).shapes[0]->mesh.bounds().upper.z * 2.0; }
 
-  const std::filesystem::path gltf_ = folder_.write("box.gltf", "{}"), buffer_ = folder_.write("box.bin", "0.5");
+  const std::filesystem::path gltf_ = folder_.write("box.gltf", "{}"),
+                              buffer_ = folder_.write("box.bin", "0.5");
   /// Lets the importer list a file that it did not find, and so cannot vouch for what it made.
   bool areCompanionsKnown_ = true;
   std::string listed_ = "box.bin";
