@@ -2,6 +2,8 @@
 #include <istream>
 #include <streambuf>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -19,7 +21,9 @@
 #include <TopoDS_Shape.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <fmt/format.h>
 
+#include "app/import/companion_list.h"
 #include "app/import/gltf_scan.h"
 #include "app/import/import_job.h"
 #include "app/import/memory_file.h"
@@ -27,6 +31,9 @@
 #include "app/import/step_scan.h"
 #include "app/import/xcaf_document.h"
 #include "core/base/error.h"
+#include "core/files/sha256.h"
+#include "core/import/companion_files.h"
+#include "core/import/mesh_file_check.h"
 #include "core/text/utf8.h"
 
 namespace nearfit::importer {
@@ -53,6 +60,29 @@ Handle(TDocStd_Document) newDocument() {
 [[noreturn]] void failUnreadable(const ImportJob& job, const char* format) {
   throw FileError(job.file.string(), std::string("OpenCASCADE cannot read it as ") + format,
                   "it may be damaged: export it again, or in another format");
+}
+
+CadDocument readGltfByOcc(const ImportJob& job) {
+  OccProgress progress(job);
+  RWGltf_CafReader reader;
+  const Handle(TDocStd_Document) document = newDocument();
+  reader.SetDocument(document);
+  // Up is z here and y there.
+  reader.SetSystemLengthUnit(1.0);
+  reader.SetSystemCoordinateSystem(RWMesh_CoordinateSystem_Zup);
+  reader.SetParallel(true);
+  reader.SetDoublePrecision(true);
+  reader.SetSkipEmptyNodes(true);
+  reader.SetMeshNameAsFallback(true);
+  // Its buffers are found beside it, so that it is read from where it lies.
+  const MemoryFile unpacked(job.bytes);
+  const std::string path = job.wasPacked ? unpacked.path() : job.file.string();
+  if (!reader.Perform(path.c_str(), progress.stageTo(stageEndsOf(job).transferred)))
+    failUnreadable(job, "glTF");
+  job.endStage("read");
+  XcafOptions options{1.0};
+  options.areTriangles = true;
+  return readXcaf(*document, options, job, progress);
 }
 
 }  // namespace
@@ -130,28 +160,32 @@ CadDocument readBrep(const ImportJob& job) {
 }
 
 CadDocument readGltf(const ImportJob& job) {
-  scanGltf(job);
+  const std::vector<std::string> buffers = scanGltf(job);
   job.endStage("scan");
-  OccProgress progress(job);
-  RWGltf_CafReader reader;
-  const Handle(TDocStd_Document) document = newDocument();
-  reader.SetDocument(document);
-  // Up is z here and y there.
-  reader.SetSystemLengthUnit(1.0);
-  reader.SetSystemCoordinateSystem(RWMesh_CoordinateSystem_Zup);
-  reader.SetParallel(true);
-  reader.SetDoublePrecision(true);
-  reader.SetSkipEmptyNodes(true);
-  reader.SetMeshNameAsFallback(true);
-  // Its buffers are found beside it, so that it is read from where it lies.
-  const MemoryFile unpacked(job.bytes);
-  const std::string path = job.wasPacked ? unpacked.path() : job.file.string();
-  if (!reader.Perform(path.c_str(), progress.stageTo(stageEndsOf(job).transferred)))
-    failUnreadable(job, "glTF");
-  job.endStage("read");
-  XcafOptions options{1.0};
-  options.areTriangles = true;
-  return readXcaf(*document, options, job, progress);
+  const CompanionFinder finder(job.file, buffers);
+  CompanionList companions;
+  std::string problem;
+  for (const std::string& buffer : buffers) {
+    const FoundFile found = finder.find(buffer);
+    companions.add(buffer, found);
+    // OpenCASCADE would wait for the writer of a pipe.
+    if (found.problem.empty()) checkMeshFile(found.path);
+    if (!found.problem.empty() && problem.empty())
+      problem = fmt::format("its buffer {} cannot be read: {}", printableText(truncatedUtf8(buffer, 200)),
+                            found.problem);
+  }
+  try {
+    CadDocument document = readGltfByOcc(job);
+    for (const std::string& buffer : buffers)
+      companions.add(buffer, finder.find(buffer));
+    // OpenCASCADE has read it once more.
+    if (!job.wasPacked && sha256OfFile(job.file) != job.sha256) companions.setIncomplete();
+    std::move(companions).giveTo(document);
+    return document;
+  } catch (const FileError&) {
+    if (problem.empty()) throw;
+    throw FileError(job.file.string(), problem, "put it beside the file, or export it as .glb");
+  }
 }
 
 }  // namespace nearfit::importer

@@ -59,7 +59,9 @@ bool staysInside(const std::filesystem::path& relative) {
   return !normal.is_absolute() && (normal.empty() || *normal.begin() != "..");
 }
 
-void checkFiles(const ImportJob& job, const Json& root, const char* list) {
+/// Names of the files in a list, which are beside the file or below.
+std::vector<std::string> checkedFiles(const ImportJob& job, const Json& root, const char* list) {
+  std::vector<std::string> names;
   for (const Json& entry : listOf(root, list)) {
     const auto uri = entry.is_object() ? entry.find("uri") : entry.end();
     if (!entry.is_object() || uri == entry.end() || !uri->is_string()) continue;
@@ -73,7 +75,9 @@ void checkFiles(const ImportJob& job, const Json& root, const char* list) {
     }
     if (job.wasPacked)
       failGltf(job, "its buffers are files of their own", "unpack it first, or export it as .glb");
+    names.push_back(text);
   }
+  return names;
 }
 
 /// Counts what nodes stand for, each once.
@@ -152,15 +156,17 @@ void checkNesting(const ImportJob& job, std::string_view json) {
 
 }  // namespace
 
-void scanGltf(const ImportJob& job) {
+std::vector<std::string> scanGltf(const ImportJob& job) {
   const std::string_view json = jsonOf(job);
   checkNesting(job, json);
   const Json root = Json::parse(json, nullptr, false);
   if (!root.is_object()) failGltf(job, "its JSON is damaged");
   checkExtensions(job, root);
-  checkFiles(job, root, "buffers");
-  checkFiles(job, root, "images");
+  std::vector<std::string> buffers = checkedFiles(job, root, "buffers");
+  // Pictures change nothing of what is shown.
+  checkedFiles(job, root, "images");
   checkNodes(job, root);
+  return buffers;
 }
 
 }  // namespace nearfit::importer

@@ -12,11 +12,11 @@
 
 #include <fmt/format.h>
 
-#include "app/import/urdf_files.h"
 #include "core/base/error.h"
 #include "core/files/gunzip.h"
 #include "core/files/input_file.h"
 #include "core/files/sha256.h"
+#include "core/import/companion_files.h"
 #include "core/text/utf8.h"
 
 namespace nearfit::importer {
@@ -146,7 +146,7 @@ std::vector<std::filesystem::path> readablePaths(const ImportJob& job) {
       // Its buffers lie beside it, and it may be a link to a file elsewhere.
       return {std::filesystem::absolute(job.file).parent_path(), std::filesystem::canonical(job.file)};
     case DocumentFormat::Urdf:
-      return UrdfFiles(job).folders();
+      return UrdfFiles(job.file, {job.bytes.data(), job.bytes.size()}).folders();
     default:
       return {};
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 
@@ -92,9 +93,47 @@ std::string restText(const glm::dmat3& rest) {
   return text;
 }
 
+void TriangleColours::add(const std::optional<CadColour>& colour) {
+  std::uint32_t number = 0;
+  if (colour) {
+    const bool isRoom = numberAt_.size() < kMaxColours;
+    auto at = numberAt_.find(*colour);
+    if (at == numberAt_.end() && isRoom) {
+      at = numberAt_.emplace(*colour, static_cast<std::uint32_t>(colours_.size())).first;
+      colours_.push_back(colour);
+    }
+    areTooMany_ = areTooMany_ || at == numberAt_.end();
+    number = at == numberAt_.end() ? 0 : at->second;
+  }
+  numbers_.push_back(number);
+}
+
+std::optional<CadColour> TriangleColours::common() const {
+  const auto isFirst = [this](std::uint32_t number) { return number == numbers_.front(); };
+  return numbers_.empty() || !std::ranges::all_of(numbers_, isFirst) ? std::nullopt
+                                                                     : colours_[numbers_.front()];
+}
+
+void TriangleColours::setOwn(const CadColour& own) {
+  const auto at = numberAt_.find(own);
+  if (at != numberAt_.end()) std::ranges::replace(numbers_, at->second, 0U);
+}
+
 CadShape triangleShape(std::span<const glm::dvec3> vertices, std::span<const Triangle> triangles,
-                       const glm::dmat3& map) {
+                       const glm::dmat3& map, const TriangleColours& colours) {
   CadShape shape;
+  // Faces in the order of their first triangles.
+  constexpr std::uint32_t kNoFace = std::numeric_limits<std::uint32_t>::max();
+  const bool hasColours = colours.size() == triangles.size();
+  std::vector<std::uint32_t> faceAt(colours.colourCount(), kNoFace);
+  const auto addToFace = [&](std::size_t triangle) {
+    const std::uint32_t number = colours.numberOf(triangle);
+    if (faceAt[number] == kNoFace) {
+      faceAt[number] = static_cast<std::uint32_t>(shape.faceColours.size());
+      shape.faceColours.push_back(colours.colour(number));
+    }
+    shape.surfaces.faceOfTriangle.push_back(faceAt[number]);
+  };
   const bool mirrors = glm::determinant(map) < 0.0;
   std::unordered_map<glm::dvec3, std::uint32_t, PointHash> indexOf;
   const auto cornerOf = [&](std::uint32_t vertex) -> std::optional<std::uint32_t> {
@@ -106,14 +145,25 @@ CadShape triangleShape(std::span<const glm::dvec3> vertices, std::span<const Tri
     return at->second;
   };
   std::size_t bad = 0;
-  for (const Triangle& t : triangles) {
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Triangle& t = triangles[i];
     const auto a = cornerOf(t[0]), b = cornerOf(t[1]), c = cornerOf(t[2]);
     if (!a || !b || !c) {
       ++bad;
     } else if (*a != *b && *b != *c && *c != *a) {
       shape.triangles.push_back(mirrors ? Triangle{*a, *c, *b} : Triangle{*a, *b, *c});
+      if (hasColours) addToFace(i);
     }
   }
+  if (std::ranges::none_of(shape.faceColours, [](const auto& colour) { return colour.has_value(); })) {
+    shape.faceColours.clear();
+    shape.surfaces.faceOfTriangle.clear();
+  }
+  shape.surfaces.faces.resize(shape.faceColours.size());
+  if (colours.areTooMany())
+    addWarning(shape.warnings,
+               fmt::format("It has more than {} colours; triangles of others have that of the part.",
+                           TriangleColours::kMaxColours));
   if (bad > 0)
     addWarning(shape.warnings,
                fmt::format("{} triangles with corners that are missing or not finite were left out.", bad));

@@ -9,6 +9,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "app/import/import_job.h"
+#include "app/import/placed_mesh.h"
 
 namespace nearfit::importer {
 
@@ -25,8 +26,9 @@ struct ThreeMfObject {
   std::vector<glm::dvec3> vertices;
   std::vector<Triangle> triangles;
   std::vector<ThreeMfPlacement> components;
-  /// Its material's, or its own; std::nullopt where triangles have colours, or nothing has.
-  std::optional<CadColour> colour;
+  std::optional<CadColour> colour;  ///< Of its triangles that have none of their own.
+  /// Of base materials and groups of colours; empty, or one for each triangle.
+  TriangleColours triangleColours;
 };
 
 /// A 3MF file as lib3mf reads it. Its two versions differ in all names, so that each has a source file of its own.

@@ -1,8 +1,10 @@
 // lib3mf 1, whose interface is one of C: objects are pointers to be released, and each call returns an error code.
-#include <cmath>
+#include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Model/COM/NMR_DLLInterfaces.h>
@@ -127,7 +129,12 @@ class Library {
     const Owned ownedProperties(properties);
     NMR::eModelPropertyType type = NMR::MODELPROPERTYTYPE_NONE;
     if (NMR::lib3mf_defaultpropertyhandler_getpropertytype(properties, &type) != 0) return std::nullopt;
-    if (type == NMR::MODELPROPERTYTYPE_BASEMATERIALS) return colourOfMaterial(properties);
+    if (type == NMR::MODELPROPERTYTYPE_BASEMATERIALS) {
+      DWORD group = 0, index = 0;
+      if (NMR::lib3mf_defaultpropertyhandler_getbasematerial(properties, &group, &index) != 0)
+        return std::nullopt;
+      return colourOfMaterial(group, index);
+    }
     NMR::MODELMESHCOLOR_SRGB colour{};
     if (type != NMR::MODELPROPERTYTYPE_COLOR ||
         NMR::lib3mf_defaultpropertyhandler_getcolor(properties, 0, &colour) != 0)
@@ -135,10 +142,7 @@ class Library {
     return threeMfColour(colour.m_Red, colour.m_Green, colour.m_Blue);
   }
 
-  std::optional<CadColour> colourOfMaterial(NMR::PLib3MFBase* properties) const {
-    DWORD group = 0, index = 0;
-    if (NMR::lib3mf_defaultpropertyhandler_getbasematerial(properties, &group, &index) != 0)
-      return std::nullopt;
+  std::optional<CadColour> colourOfMaterial(DWORD group, DWORD index) const {
     NMR::PLib3MFBase* materials = nullptr;
     if (NMR::lib3mf_model_getbasematerialbyid(model_, group, &materials) != 0) return std::nullopt;
     const Owned ownedMaterials(materials);
@@ -161,6 +165,34 @@ class Library {
       taken.vertices.emplace_back(p.m_fPosition[0], p.m_fPosition[1], p.m_fPosition[2]);
     for (const NMR::MODELMESHTRIANGLE& t : corners)
       taken.triangles.push_back({t.m_nIndices[0], t.m_nIndices[1], t.m_nIndices[2]});
+    takeColours(object, taken);
+  }
+
+  /// Of a triangle whose corners have several, the first one's.
+  void takeColours(NMR::PLib3MFBase* object, ThreeMfObject& taken) const {
+    NMR::PLib3MFBase* properties = nullptr;
+    if (NMR::lib3mf_meshobject_createpropertyhandler(object, &properties) != 0) return;
+    const Owned ownedProperties(properties);
+    // The library leaves zeros where there is no colour or material.
+    const std::size_t count = taken.triangles.size();
+    std::vector<DWORD> groups(count), indices(count);
+    std::vector<NMR::MODELMESH_TRIANGLECOLOR_SRGB> colours(count);
+    if (NMR::lib3mf_propertyhandler_getbasematerialarray(properties, groups.data(), indices.data()) != 0 ||
+        NMR::lib3mf_propertyhandler_getcolorarray(properties, colours.data()) != 0)
+      return;
+    std::map<std::pair<DWORD, DWORD>, std::optional<CadColour>> materials;
+    for (std::size_t i = 0; i < count; ++i) {
+      const NMR::MODELMESHCOLOR_SRGB& c = colours[i].m_Colors[0];
+      if (c.m_Red != 0 || c.m_Green != 0 || c.m_Blue != 0 || c.m_Alpha != 0) {
+        taken.triangleColours.add(threeMfColour(c.m_Red, c.m_Green, c.m_Blue));
+      } else if (groups[i] != 0) {
+        const auto [at, isNew] = materials.try_emplace({groups[i], indices[i]});
+        if (isNew) at->second = colourOfMaterial(groups[i], indices[i]);
+        taken.triangleColours.add(at->second);
+      } else {
+        taken.triangleColours.add(std::nullopt);
+      }
+    }
   }
 
   void takeComponents(NMR::PLib3MFBase* object, ThreeMfObject& taken) {

@@ -1,6 +1,8 @@
 // lib3mf 2.
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -57,29 +59,70 @@ class Library {
     if (object->IsMeshObject()) {
       const Lib3MF::PMeshObject mesh = model_->GetMeshObjectByID(id);
       takeMesh(*mesh, taken);
+      takeColours(*mesh, taken);
       taken.colour = colourOf(*mesh);
     }
     if (object->IsComponentsObject()) takeComponents(*model_->GetComponentsObjectByID(id), taken);
     return id;
   }
 
-  std::optional<CadColour> colourOf(Lib3MF::CMeshObject& mesh) const {
+  std::optional<CadColour> colourOf(Lib3MF::CMeshObject& mesh) {
     Lib3MF_uint32 group = 0, property = 0;
-    if (!mesh.GetObjectLevelProperty(group, property)) return std::nullopt;
-    const auto taken = [](const Lib3MF::sColor& colour) {
-      return threeMfColour(colour.m_Red, colour.m_Green, colour.m_Blue);
-    };
-    // A group of another kind is an error to the library. A colour is no reason to refuse a file: one that cannot be
-    // read is none.
+    return mesh.GetObjectLevelProperty(group, property) ? colourOf(group, property) : std::nullopt;
+  }
+
+  /// Materials or colours; both null for a group of another kind.
+  struct ColourGroup {
+    Lib3MF::PBaseMaterialGroup materials;
+    Lib3MF::PColorGroup colours;
+  };
+
+  /// A group of another kind is an error to the library, and takes long: each is asked for once.
+  const ColourGroup& groupOf(Lib3MF_uint32 id) {
+    const auto [at, isNew] = groups_.try_emplace(id);
+    if (!isNew) return at->second;
     try {
-      return taken(model_->GetBaseMaterialGroupByID(group)->GetDisplayColor(property));
+      at->second.materials = model_->GetBaseMaterialGroupByID(id);
     } catch (const Lib3MF::ELib3MFException&) {
+      at->second.materials = nullptr;
     }
+    if (at->second.materials != nullptr) return at->second;
     try {
-      return taken(model_->GetColorGroupByID(group)->GetColor(property));
+      at->second.colours = model_->GetColorGroupByID(id);
     } catch (const Lib3MF::ELib3MFException&) {
-      return std::nullopt;
+      at->second.colours = nullptr;
     }
+    return at->second;
+  }
+
+  /// A colour is no reason to refuse a file: one that cannot be read is none.
+  std::optional<CadColour> colourOf(Lib3MF_uint32 group, Lib3MF_uint32 property) {
+    const auto [at, isNew] = colours_.try_emplace({group, property});
+    if (!isNew) return at->second;
+    const ColourGroup& of = groupOf(group);
+    if (of.materials == nullptr && of.colours == nullptr) return std::nullopt;
+    try {
+      const Lib3MF::sColor colour =
+          of.materials != nullptr ? of.materials->GetDisplayColor(property) : of.colours->GetColor(property);
+      at->second = threeMfColour(colour.m_Red, colour.m_Green, colour.m_Blue);
+    } catch (const Lib3MF::ELib3MFException&) {
+      at->second = std::nullopt;
+    }
+    return at->second;
+  }
+
+  /// Of a triangle whose corners have several, the first one's.
+  void takeColours(Lib3MF::CMeshObject& mesh, ThreeMfObject& taken) {
+    std::vector<Lib3MF::sTriangleProperties> properties;
+    try {
+      mesh.GetAllTriangleProperties(properties);
+    } catch (const Lib3MF::ELib3MFException&) {
+      return;
+    }
+    if (properties.size() != taken.triangles.size()) return;
+    for (const Lib3MF::sTriangleProperties& of : properties)
+      taken.triangleColours.add(of.m_ResourceID == 0 ? std::nullopt
+                                                     : colourOf(of.m_ResourceID, of.m_PropertyIDs[0]));
   }
 
   static void takeMesh(Lib3MF::CMeshObject& mesh, ThreeMfObject& taken) {
@@ -105,6 +148,8 @@ class Library {
 
   const ImportJob& job_;
   Lib3MF::PModel model_;
+  std::map<Lib3MF_uint32, ColourGroup> groups_;
+  std::map<std::pair<Lib3MF_uint32, Lib3MF_uint32>, std::optional<CadColour>> colours_;
   ThreeMfModel result_;
 };
 

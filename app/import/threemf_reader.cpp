@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -23,6 +24,8 @@ class ThreeMfReader {
   CadDocument read() {
     model_ = loadThreeMf(job_);
     builder_.setStatedUnit(model_.metresPerUnit);
+    for (auto& [id, object] : model_.objects)
+      settleColours(object);
     job_.progress(0.5);
     job_.endStage("read");
     for (const ThreeMfPlacement& item : model_.items)
@@ -31,6 +34,17 @@ class ThreeMfReader {
   }
 
  private:
+  /// A colour that all triangles have is the object's, and those of the object's have none of their own: a part is given
+  /// another colour by that of its node.
+  static void settleColours(ThreeMfObject& object) {
+    if (const std::optional<CadColour> common = object.triangleColours.common()) {
+      object.colour = common;
+      object.triangleColours = {};
+    } else if (object.colour) {
+      object.triangleColours.setOwn(*object.colour);
+    }
+  }
+
   /// @param rest  What placements around it cannot express; applied within it.
   void place(const ThreeMfPlacement& placement, std::int32_t parent, const glm::dmat3& rest,
              std::size_t depth) {
@@ -70,8 +84,8 @@ class ThreeMfReader {
     if (!variant.empty()) key += " x " + variant;
     at->second = builder_.addShape(key);
     if (builder_.isWanted(at->second))
-      builder_.setShape(at->second,
-                        triangleShape(object.vertices, object.triangles, rest * model_.metresPerUnit));
+      builder_.setShape(at->second, triangleShape(object.vertices, object.triangles,
+                                                  rest * model_.metresPerUnit, object.triangleColours));
     return at->second;
   }
 

@@ -3,9 +3,13 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -13,6 +17,8 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <Message_ProgressRange.hxx>
+#include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
 #include <TopoDS_Shape.hxx>
 #include <TopoDS_Solid.hxx>
 #include <console_bridge/console.h>
@@ -25,14 +31,19 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include "app/import/companion_list.h"
 #include "app/import/document_builder.h"
+#include "app/import/gltf_scan.h"
 #include "app/import/import_job.h"
 #include "app/import/placed_mesh.h"
 #include "app/import/shape_mesher.h"
 #include "app/import/solid_bodies.h"
-#include "app/import/urdf_files.h"
 #include "core/base/error.h"
+#include "core/files/input_file.h"
+#include "core/files/sha256.h"
+#include "core/import/companion_files.h"
 #include "core/import/document_file.h"
+#include "core/import/mesh_file_check.h"
 #include "core/import/mesh_import.h"
 #include "core/text/utf8.h"
 
@@ -79,6 +90,73 @@ RigidTransform transformOf(const urdf::Pose& pose) {
   return transform.isFinite() ? transform.normalized() : RigidTransform{};
 }
 
+std::string lowerExtension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension.empty() ? extension : extension.substr(1);
+}
+
+bool isGltf(const std::filesystem::path& mesh) {
+  const std::string extension = lowerExtension(mesh);
+  return extension == "gltf" || extension == "glb";
+}
+
+bool isReadableMesh(const std::filesystem::path& mesh) {
+  const std::vector<std::string>& readable = importableExtensions();
+  return isGltf(mesh) || std::ranges::find(readable, lowerExtension(mesh)) != readable.end();
+}
+
+/// A glTF file as if it were imported by itself, without a sign of its progress.
+ImportJob gltfJob(const std::filesystem::path& file) {
+  ImportJob job;
+  job.file = file;
+  job.format = DocumentFormat::Gltf;
+  job.stem = file.stem().string();
+  checkMeshFile(file);
+  job.bytes = readWholeFile(file);
+  job.sha256 = sha256OfBytes(job.bytes);
+  job.progress = [](double) {};
+  job.endStage = [](const char*) {};
+  return job;
+}
+
+/// Triangles of all that a glTF file places: some gigabyte of them.
+constexpr std::size_t kMaxPlacedTriangles = 10'000'000;
+
+/// All that a document of triangles places, as one mesh.
+struct PlacedTriangles {
+  std::vector<glm::dvec3> vertices;
+  std::vector<Triangle> triangles;
+  TriangleColours colours;
+};
+
+/// Throws FileError if it is too much.
+PlacedTriangles placedTriangles(const CadDocument& document, const std::filesystem::path& file) {
+  PlacedTriangles all;
+  std::vector<RigidTransform> meshFromNode;
+  for (const CadNode& node : document.nodes) {
+    const RigidTransform parent =
+        node.parent < 0 ? RigidTransform{} : meshFromNode[static_cast<std::size_t>(node.parent)];
+    const RigidTransform placed = (parent * node.parentFromNode).normalized();
+    meshFromNode.push_back(placed);
+    if (node.shape < 0) continue;
+    const CadShape& shape = document.shapes[static_cast<std::size_t>(node.shape)];
+    if (all.triangles.size() + shape.triangles.size() > kMaxPlacedTriangles ||
+        all.vertices.size() + shape.vertices.size() > 3 * kMaxPlacedTriangles)
+      throw FileError(file.string(), fmt::format("it places more than {} triangles", kMaxPlacedTriangles),
+                      "export it coarser");
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    for (const glm::dvec3& vertex : shape.vertices)
+      all.vertices.push_back(placed.applyToPoint(vertex));
+    for (const Triangle& t : shape.triangles) {
+      all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      all.colours.add(node.colour);
+    }
+  }
+  return all;
+}
+
 /// Geometry of a link, with its place in it.
 struct LinkGeometry {
   urdf::GeometrySharedPtr geometry;
@@ -110,16 +188,10 @@ std::vector<LinkGeometry> collisionsOf(const urdf::Link& link) {
   return all;
 }
 
-std::string lowerExtension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension.empty() ? extension : extension.substr(1);
-}
-
 class UrdfReader {
  public:
-  explicit UrdfReader(const ImportJob& job) : job_(job), files_(job), builder_(job) {}
+  explicit UrdfReader(const ImportJob& job)
+      : job_(job), files_(job.file, {job.bytes.data(), job.bytes.size()}), builder_(job) {}
 
   CadDocument read() {
     checkXmlDepth(job_);
@@ -143,7 +215,9 @@ class UrdfReader {
       }
       job_.progress(static_cast<double>(i + 1) / static_cast<double>(links.size()));
     }
-    return builder_.take();
+    CadDocument document = builder_.take();
+    std::move(companions_).giveTo(document);
+    return document;
   }
 
  private:
@@ -163,8 +237,13 @@ class UrdfReader {
 
   void addLink(const urdf::Link& link, const RigidTransform& robotFromLink, std::int32_t top) {
     const std::string name = cleanName(link.name);
-    std::vector<std::pair<LinkGeometry, std::int32_t>> shapes = shapesOf(visualsOf(link), name);
-    if (shapes.empty()) shapes = shapesOf(collisionsOf(link), name);
+    const std::vector<LinkGeometry> visuals = visualsOf(link), collisions = collisionsOf(link);
+    // All of them, whatever is wanted and can be read, so that each run lists the same.
+    for (const std::vector<LinkGeometry>* all : {&visuals, &collisions})
+      for (const LinkGeometry& each : *all)
+        noteMesh(*each.geometry);
+    std::vector<std::pair<LinkGeometry, std::int32_t>> shapes = shapesOf(visuals, name);
+    if (shapes.empty()) shapes = shapesOf(collisions, name);
     if (shapes.empty()) return;
     CadNode node;
     node.parent = top;
@@ -173,7 +252,7 @@ class UrdfReader {
     if (shapes.size() == 1) {
       node.parentFromNode = (robotFromLink * shapes[0].first.linkFromGeometry).normalized();
       node.shape = shapes[0].second;
-      node.colour = shapes[0].first.colour;
+      node.colour = shownColour(shapes[0].first, shapes[0].second);
       builder_.addNode(node);
       return;
     }
@@ -184,24 +263,31 @@ class UrdfReader {
       child.name = cleanName(fmt::format("{} {}", name, i + 1));
       child.parentFromNode = shapes[i].first.linkFromGeometry;
       child.shape = shapes[i].second;
-      child.colour = shapes[i].first.colour;
+      child.colour = shownColour(shapes[i].first, shapes[i].second);
       builder_.addNode(child);
     }
+  }
+
+  /// The URDF file's colour of a mesh goes before the mesh's own.
+  std::optional<CadColour> shownColour(const LinkGeometry& geometry, std::int32_t shape) const {
+    const auto own = meshColours_.find(shape);
+    return geometry.colour || own == meshColours_.end() ? geometry.colour : std::optional(own->second);
   }
 
   std::vector<std::pair<LinkGeometry, std::int32_t>> shapesOf(const std::vector<LinkGeometry>& all,
                                                               const std::string& link) {
     std::vector<std::pair<LinkGeometry, std::int32_t>> shapes;
     for (const LinkGeometry& geometry : all)
-      if (const std::int32_t shape = shapeOf(*geometry.geometry, link); shape >= 0)
+      if (const std::int32_t shape = shapeOf(geometry, link); shape >= 0)
         shapes.emplace_back(geometry, shape);
     return shapes;
   }
 
-  std::int32_t shapeOf(const urdf::Geometry& geometry, const std::string& link) {
+  std::int32_t shapeOf(const LinkGeometry& of, const std::string& link) {
+    const urdf::Geometry& geometry = *of.geometry;
     switch (geometry.type) {
       case urdf::Geometry::MESH:
-        return meshShape(static_cast<const urdf::Mesh&>(geometry), link);
+        return meshShape(static_cast<const urdf::Mesh&>(geometry), of.colour.has_value(), link);
       case urdf::Geometry::BOX: {
         const urdf::Vector3& size = static_cast<const urdf::Box&>(geometry).dim;
         const glm::dvec3 mm = glm::dvec3(size.x, size.y, size.z) * kMillimetres;
@@ -243,40 +329,94 @@ class UrdfReader {
     return shape;
   }
 
-  std::int32_t meshShape(const urdf::Mesh& mesh, const std::string& link) {
+  /// Lists the file of a mesh, once.
+  void noteMesh(const urdf::Geometry& geometry) {
+    if (geometry.type != urdf::Geometry::MESH) return;
+    const std::string& name = static_cast<const urdf::Mesh&>(geometry).filename;
+    if (noted_.insert(name).second) noteFiles(name);
+  }
+
+  void noteFiles(const std::string& name) {
+    const FoundFile found = files_.find(name);
+    // What is never read decides nothing.
+    if (found.problem.empty() && !isReadableMesh(found.path)) return;
+    companions_.add(name, found);
+    if (!found.problem.empty() || !isGltf(found.path)) return;
+    try {
+      const std::string folder = name.substr(0, name.rfind('/') + 1);
+      for (const std::string& buffer : scanGltf(gltfJob(found.path)))
+        companions_.add(folder + buffer, files_.find(folder + buffer));
+    } catch (const FileError&) {
+      // The mesh is left out, as its bytes decide; whoever reads it tells why.
+    }
+  }
+
+  /// @param isPainted  The URDF file gives it a colour.
+  std::int32_t meshShape(const urdf::Mesh& mesh, bool isPainted, const std::string& link) {
+    // Other formats have no colours of their own that a shape could have without them.
+    const bool dropsColours = isPainted && isGltf(mesh.filename);
     const auto [at, isNew] =
-        meshes_.try_emplace({mesh.filename, mesh.scale.x, mesh.scale.y, mesh.scale.z}, -1);
+        meshes_.try_emplace({mesh.filename, mesh.scale.x, mesh.scale.y, mesh.scale.z, dropsColours}, -1);
     if (!isNew) return at->second;
     const auto leftOut = [&](const std::string& problem) {
       builder_.warn(fmt::format("Link \"{}\": the mesh {} is left out: {}.", link, mesh.filename, problem));
       return -1;
     };
-    const UrdfFiles::Found found = files_.find(mesh.filename);
+    const FoundFile found = files_.find(mesh.filename);
     if (!found.problem.empty()) return leftOut(found.problem);
-    const std::string extension = lowerExtension(found.path);
-    const std::vector<std::string>& readable = importableExtensions();
-    if (std::ranges::find(readable, extension) == readable.end())
-      return leftOut(extension + " is not read in a URDF file; convert it to STL or OBJ");
+    if (!isReadableMesh(found.path)) {
+      const std::string extension = lowerExtension(found.path);
+      return leftOut((extension == "dae" ? "COLLADA (.dae)" : '.' + extension) +
+                     " is not read; convert it to glTF, STL or OBJ");
+    }
     const glm::dmat3 scale(mesh.scale.x, 0.0, 0.0, 0.0, mesh.scale.y, 0.0, 0.0, 0.0, mesh.scale.z);
     if (!splitMap(scale)) return leftOut("its scale is zero or not finite");
     at->second = builder_.addShape(mesh.filename);
     if (!builder_.isWanted(at->second)) return at->second;
     try {
-      const ImportedMesh imported = importMesh(found.path, MeshBuildOptions{});
-      CadShape shape = triangleShape(imported.mesh.vertices(), imported.mesh.triangles(), scale);
-      for (const std::string& warning : imported.report.warnings)
-        addWarning(shape.warnings, warning);
-      builder_.setShape(at->second, std::move(shape));
+      builder_.setShape(at->second, isGltf(found.path)
+                                        ? gltfShape(found.path, scale, at->second, dropsColours)
+                                        : meshFileShape(found.path, scale));
+      noteFiles(mesh.filename);
     } catch (const FileError& error) {
       return leftOut(error.problem());
+    } catch (const Standard_OutOfMemory&) {
+      throw;
+    } catch (const Standard_Failure& failure) {
+      return leftOut(fmt::format("OpenCASCADE cannot read it: {}", failure.GetMessageString()));
     }
     return at->second;
+  }
+
+  static CadShape meshFileShape(const std::filesystem::path& file, const glm::dmat3& scale) {
+    const ImportedMesh imported = importMesh(file, MeshBuildOptions{});
+    CadShape shape = triangleShape(imported.mesh.vertices(), imported.mesh.triangles(), scale);
+    for (const std::string& warning : imported.report.warnings)
+      addWarning(shape.warnings, warning);
+    return shape;
+  }
+
+  /// One shape of all nodes. A colour that they share is noted for the nodes of the shape.
+  CadShape gltfShape(const std::filesystem::path& file, const glm::dmat3& scale, std::int32_t index,
+                     bool dropsColours) {
+    const CadDocument document = readGltf(gltfJob(file));
+    PlacedTriangles placed = placedTriangles(document, file);
+    const std::optional<CadColour> common = placed.colours.common();
+    if (common) meshColours_[index] = *common;
+    if (common || dropsColours) placed.colours = {};
+    CadShape shape = triangleShape(placed.vertices, placed.triangles, scale, placed.colours);
+    for (const std::string& warning : document.warnings)
+      addWarning(shape.warnings, warning);
+    return shape;
   }
 
   const ImportJob& job_;
   UrdfFiles files_;
   DocumentBuilder builder_;
-  std::map<std::tuple<std::string, double, double, double>, std::int32_t> meshes_;
+  CompanionList companions_;
+  std::set<std::string> noted_;
+  std::map<std::tuple<std::string, double, double, double, bool>, std::int32_t> meshes_;
+  std::map<std::int32_t, CadColour> meshColours_;  ///< Of all triangles of a shape.
 };
 
 }  // namespace

@@ -48,6 +48,12 @@ struct CadNode {
   std::optional<CadColour> colour;
 };
 
+/// A file that a document is read from besides its own: a buffer of a glTF file, a mesh of a URDF file.
+struct CadCompanion {
+  std::string name;    ///< As seen from the document: a path from its folder, or package://PACKAGE/PATH.
+  std::string sha256;  ///< Of its bytes when the document was read.
+};
+
 /// Tree, shapes, names, colours and unit of an assembly file.
 struct CadDocument {
   /// False for formats without units: lengths are in the file's own.
@@ -59,6 +65,9 @@ struct CadDocument {
   std::vector<CadNode> nodes;  ///< Parents first.
   std::vector<std::string> warnings;
   std::string sha256;  ///< Of the file's bytes, and for formats of several files of the main one.
+  std::vector<CadCompanion> companions;
+  /// False if more than the file and its companions decides what the document shows, such as files that are missing.
+  bool areCompanionsKnown = true;
 };
 
 }  // namespace nearfit

@@ -18,6 +18,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/base/error.h"
+#include "core/import/companion_files.h"
 #include "core/text/utf8.h"
 
 namespace nearfit {
@@ -148,6 +149,18 @@ bool isSha256(const std::string& text) {
   return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
+void checkCompanions(const std::vector<CadCompanion>& companions) {
+  require(companions.size() <= kMaxCompanions, "companions", "there are too many");
+  std::unordered_set<std::string_view> names;
+  for (std::size_t i = 0; i < companions.size(); ++i) {
+    const std::string where = fmt::format("companion {}", i);
+    require(isCompanionName(companions[i].name), where,
+            "its name is too long, absolute or no printable text");
+    require(isSha256(companions[i].sha256), where, "its checksum is no SHA-256");
+    require(names.insert(companions[i].name).second, where, "its name repeats");
+  }
+}
+
 /// Writes values one after the other.
 class DocumentWriter {
  public:
@@ -258,7 +271,8 @@ class DocumentReader {
 constexpr std::size_t kColourBytes = 1 + 3 * sizeof(float);
 constexpr std::size_t kSurfaceBytes = 1 + 9 * sizeof(double) + 1;
 /// Without the texts and arrays in them.
-constexpr std::size_t kShapeBytes = 7 * sizeof(std::uint64_t), kNodeBytes = 2 * sizeof(std::int32_t);
+constexpr std::size_t kShapeBytes = 7 * sizeof(std::uint64_t), kNodeBytes = 2 * sizeof(std::int32_t),
+                      kCompanionBytes = 2 * sizeof(std::uint64_t);
 
 void writeSurface(const ExactSurface& s, DocumentWriter& out) {
   out.value(s.kind);
@@ -359,6 +373,12 @@ CadDocument readUnchecked(std::span<const std::byte> bytes) {
   document.hasUnit = in.flag();
   document.statedUnit = in.value<double>();
   document.sha256 = in.text();
+  document.areCompanionsKnown = in.flag();
+  document.companions.resize(in.count(kCompanionBytes));
+  for (CadCompanion& companion : document.companions) {
+    companion.name = in.text();
+    companion.sha256 = in.text();
+  }
   document.warnings = in.texts();
   document.shapes.resize(in.count(kShapeBytes));
   for (CadShape& shape : document.shapes)
@@ -377,6 +397,7 @@ void checkDocument(const CadDocument& document) {
   // NaN compares false.
   require(document.statedUnit >= kMinStatedUnit && document.statedUnit <= kMaxStatedUnit, "unit",
           "it is out of range");
+  checkCompanions(document.companions);
   checkWarnings(document.warnings, "document");
   // Each shape is placed by a node at least.
   require(document.shapes.size() <= kMaxDocumentNodes, "shapes", "there are too many");
@@ -399,6 +420,12 @@ void writeDocument(const CadDocument& document, const DocumentSink& sink) {
   out.value(static_cast<std::uint8_t>(document.hasUnit));
   out.value(document.statedUnit);
   out.text(document.sha256);
+  out.value(static_cast<std::uint8_t>(document.areCompanionsKnown));
+  out.value(std::uint64_t{document.companions.size()});
+  for (const CadCompanion& companion : document.companions) {
+    out.text(companion.name);
+    out.text(companion.sha256);
+  }
   out.texts(document.warnings);
   out.value(std::uint64_t{document.shapes.size()});
   for (const CadShape& shape : document.shapes)

@@ -65,6 +65,11 @@ const std::vector<std::string>& documentExtensions() {
   return extensions;
 }
 
+std::string documentFormat(const std::filesystem::path& file) {
+  const std::string extension = extensionOf(file);
+  return extension == "gz" ? extensionOf(file.stem()) : extension;
+}
+
 CadDocument importDocument(const std::filesystem::path& file, const DocumentOptions& options,
                            const ProgressCallback& progress) {
   requireTolerance(options.tessellation.chord, kMaxDocumentLength, "chord");

@@ -23,6 +23,9 @@ bool isDocumentFile(const std::filesystem::path& file);
 /// File name extensions of documents: lower case, without the dot.
 const std::vector<std::string>& documentExtensions();
 
+/// Extension of a file's format: lower case, without the dot and without ".gz".
+std::string documentFormat(const std::filesystem::path& file);
+
 /// Reads a CAD document by the program nearfit-import, in a process of its own, so that a file that makes it crash, hang
 /// or fill memory ends that process alone. Its result is checked as a file is that nobody trusts. Blocking;
 /// thread-safe. The process ends at once if `progress` returns false, and with the thread that waits for it.

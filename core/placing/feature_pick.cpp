@@ -354,7 +354,9 @@ std::optional<PickedFeature> pickPoint(const Pick& pick) {
 std::optional<PickedFeature> pickFeature(const TriangleMesh& mesh, const SurfaceHit& hit, double reach,
                                          FeatureFilter filter, const SurfaceFaces* surfaces) {
   std::optional<ExactFaces> exact;
-  if (surfaces != nullptr && !surfaces->faces.empty()) exact.emplace(mesh, *surfaces);
+  // Faces that only tell colours apart know of no edges.
+  const auto isKnown = [](const ExactSurface& surface) { return surface.kind != SurfaceKind::Other; };
+  if (surfaces != nullptr && std::ranges::any_of(surfaces->faces, isKnown)) exact.emplace(mesh, *surfaces);
   const Pick pick(mesh, hit, reach, exact ? &*exact : nullptr);
   if (filter == FeatureFilter::Points) return pickPoint(pick);
   if (filter == FeatureFilter::Faces) return pick.face();

@@ -42,7 +42,7 @@ struct SurfaceHit {
 /// Takes some milliseconds for features with tens of thousands of triangles: for the GUI thread, not the servo thread.
 /// @param hit    Its triangle is one of the mesh.
 /// @param reach  Max distance from the point to corners and edges [m]; >= 0.
-/// @param surfaces  Of the mesh's faces, one for each triangle; null, or without faces, if none are known.
+/// @param surfaces  Of the mesh's faces, one for each triangle; null, or of kind Other alone, if none are known.
 std::optional<PickedFeature> pickFeature(const TriangleMesh& mesh, const SurfaceHit& hit, double reach,
                                          FeatureFilter filter = FeatureFilter::Any,
                                          const SurfaceFaces* surfaces = nullptr);

@@ -84,6 +84,7 @@ PartGeometry namedAs(const PartGeometry& geometry, MeshRepairs repairs) {
   named.metresPerUnit = geometry.metresPerUnit;
   named.repairs = std::move(repairs);
   named.shapeKey = geometry.shapeKey;
+  named.companions = geometry.companions;
   named.tessellation = geometry.tessellation;
   named.hasOwnUnit = geometry.hasOwnUnit;
   return named;

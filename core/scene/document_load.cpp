@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <exception>
@@ -23,6 +22,7 @@
 #include "core/parallel/parallel_for.h"
 #include "core/parallel/shared_progress.h"
 #include "core/scene/cached_geometry.h"
+#include "core/scene/document_content.h"
 #include "core/scene/document_outline.h"
 #include "core/text/utf8.h"
 
@@ -31,8 +31,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Progress after hashing and after importing; building the meshes follows. Roughly the shares of time.
-constexpr double kDocumentHashed = 0.02, kDocumentImported = 0.7;
+/// Progress after hashing the file, its companions too, and after importing; building the meshes follows. Roughly the
+/// shares of time.
+constexpr double kFileHashed = 0.01, kDocumentHashed = 0.02, kDocumentImported = 0.7;
 /// Shapes named in an error.
 constexpr std::size_t kNamedShapes = 20;
 
@@ -54,25 +55,6 @@ CadDocument runImporter(const fs::path& file, const DocumentOptions& options,
     chosen = activeImporter;
   }
   return chosen != nullptr ? (*chosen)(file, options, progress) : importDocument(file, options, progress);
-}
-
-/// Extension of the file's format: lower case, without the dot and without ".gz".
-std::string formatOf(const fs::path& file) {
-  const auto lowered = [](std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-  };
-  fs::path extension = lowered(file.extension().string());
-  if (extension == ".gz") extension = lowered(file.stem().extension().string());
-  const std::string text = extension.string();
-  return text.empty() ? text : text.substr(1);
-}
-
-/// True if the document is all in this file: its SHA-256 then says what the document holds.
-bool isOneFile(const fs::path& file) {
-  constexpr std::array<std::string_view, 3> kWithOthers{"gltf", "glb", "urdf"};
-  return std::ranges::find(kWithOthers, formatOf(file)) == kWithOthers.end();
 }
 
 /// Where and how a document is read.
@@ -101,21 +83,22 @@ CadDocument importAll(const Source& source, std::vector<std::string> onlyShapes,
 }
 
 /// Names what is kept of a document in the cache.
-std::string cacheNameOf(const Source& source, const std::string& sha256, std::string_view what) {
+/// @param content  DocumentContent::name.
+std::string cacheNameOf(const Source& source, const std::string& content, std::string_view what) {
   const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
-  return sha256OfBytes(fmt::format("{} {:016x} {:016x} {}", sha256, bits(source.tessellation.chord),
+  return sha256OfBytes(fmt::format("{} {:016x} {:016x} {}", content, bits(source.tessellation.chord),
                                    bits(source.tessellation.angle), what));
 }
 
-std::string shapeNameOf(const Source& source, const std::string& sha256, const std::string& shape) {
-  return cacheNameOf(source, sha256, "shape " + shape);
+std::string shapeNameOf(const Source& source, const DocumentContent& content, const std::string& shape) {
+  return cacheNameOf(source, content.name, "shape " + shape);
 }
 
-TreeCacheKey outlineKeyOf(const Source& source, const std::string& sha256) {
-  return {cacheNameOf(source, sha256, "outline"), source.metresPerUnit};
+TreeCacheKey outlineKeyOf(const Source& source, const DocumentContent& content) {
+  return {cacheNameOf(source, content.name, "outline"), source.metresPerUnit};
 }
 
-/// Names a shape of a document that more than one file makes up: by what it holds.
+/// Names a shape of a document whose content has no name: by what it holds.
 std::string contentNameOf(const Source& source, const CadShape& shape) {
   const auto hashOf = [](const auto& values) {
     const auto bytes = std::as_bytes(std::span(values));
@@ -133,11 +116,12 @@ std::string contentNameOf(const Source& source, const CadShape& shape) {
                      "content");
 }
 
-PartGeometry namedGeometry(const Source& source, const std::string& sha256, const std::string& shape) {
+PartGeometry namedGeometry(const Source& source, const DocumentContent& content, const std::string& shape) {
   PartGeometry geometry;
   geometry.file = normalisedPath(source.file);
-  geometry.sha256 = sha256;
-  geometry.cacheName = shapeNameOf(source, sha256, shape);
+  geometry.sha256 = content.sha256;
+  geometry.companions = content.companions;
+  geometry.cacheName = shapeNameOf(source, content, shape);
   geometry.metresPerUnit = source.metresPerUnit;
   geometry.shapeKey = shape;
   geometry.tessellation = source.tessellation;
@@ -145,9 +129,9 @@ PartGeometry namedGeometry(const Source& source, const std::string& sha256, cons
   return geometry;
 }
 
-PartGeometryPtr fromCache(const Source& source, const std::string& sha256, const std::string& shape,
+PartGeometryPtr fromCache(const Source& source, const DocumentContent& content, const std::string& shape,
                           const MeshRepairs& repairs = {}) {
-  PartGeometry geometry = namedGeometry(source, sha256, shape);
+  PartGeometry geometry = namedGeometry(source, content, shape);
   geometry.repairs = repairs;
   std::optional<CachedMesh> kept = cachedMeshOf(geometry);
   return kept ? cachedGeometry(std::move(geometry), std::move(*kept)) : nullptr;
@@ -250,14 +234,14 @@ double unitOf(const CadDocument& document, const Source& source) {
 
 /// Builds the geometry of an imported shape and caches it. Throws FileError that names the shape.
 PartGeometryPtr geometryOf(CadShape& shape, const Source& source, const CadDocument& document,
-                           const std::function<void(double)>& onProgress) {
+                           const DocumentContent& content, const std::function<void(double)>& onProgress) {
   const std::string where = fmt::format("{}, shape \"{}\"", source.file.string(), shape.key);
   try {
     Source own = source;
     own.metresPerUnit = unitOf(document, source);
-    PartGeometry geometry = namedGeometry(own, document.sha256, shape.key);
+    PartGeometry geometry = namedGeometry(own, content, shape.key);
     geometry.hasOwnUnit = document.hasUnit;
-    if (!isOneFile(source.file)) {
+    if (content.name.empty()) {
       geometry.cacheName = contentNameOf(own, shape);
       // Storing it again would drop its hierarchy.
       if (std::optional<CachedMesh> kept = cachedMeshOf(geometry))
@@ -281,7 +265,8 @@ PartGeometryPtr geometryOf(CadShape& shape, const Source& source, const CadDocum
 
 /// Geometries of shapes, or why they have none, built in parallel.
 std::vector<LoadedPart> geometriesOf(CadDocument& document, std::span<const std::size_t> shapes,
-                                     const Source& source, const ProgressCallback& progress) {
+                                     const Source& source, const DocumentContent& content,
+                                     const ProgressCallback& progress) {
   std::vector<LoadedPart> loaded(shapes.size());
   double total = 1.0;
   for (const std::size_t shape : shapes)
@@ -294,7 +279,7 @@ std::vector<LoadedPart> geometriesOf(CadDocument& document, std::span<const std:
     // Within a shape, progress only serves to cancel.
     const auto onProgress = [&all](double) { all.add(0.0); };
     try {
-      loaded[i].geometry = geometryOf(shape, source, document, onProgress);
+      loaded[i].geometry = geometryOf(shape, source, document, content, onProgress);
     } catch (const Cancelled&) {
       throw;
     } catch (...) {
@@ -316,16 +301,15 @@ std::string messageOf(const std::exception_ptr& problem) {
 }
 
 /// The whole document if the cache has it.
-std::optional<LoadedDocument> documentFromCache(const Source& source, const std::string& sha256) {
-  if (!isOneFile(source.file)) return std::nullopt;
-  const std::optional<std::string> text = TreeCache().findText(outlineKeyOf(source, sha256));
+std::optional<LoadedDocument> documentFromCache(const Source& source, const DocumentContent& content) {
+  const std::optional<std::string> text = TreeCache().findText(outlineKeyOf(source, content));
   std::optional<DocumentOutline> outline = text ? readOutline(*text, source.file) : std::nullopt;
   if (!outline) return std::nullopt;
   LoadedDocument document;
   document.shapes.resize(outline->shapes.size());
   parallelFor(document.shapes.size(), [&](std::size_t i) {
     if (outline->shapes[i].problem.empty())
-      document.shapes[i] = fromCache(source, sha256, outline->shapes[i].key);
+      document.shapes[i] = fromCache(source, content, outline->shapes[i].key);
   });
   for (std::size_t i = 0; i < document.shapes.size(); ++i) {
     if (outline->shapes[i].problem.empty() && document.shapes[i] == nullptr) return std::nullopt;
@@ -350,7 +334,8 @@ LoadedDocument documentOf(CadDocument imported, const Source& source, const Prog
   for (CadNode& node : outline.nodes)
     node.parentFromNode.translation *= unitOf(imported, source);
   outline = checkedOutline(std::move(outline), source.file);
-  const std::vector<LoadedPart> loaded = geometriesOf(imported, all, source, progress);
+  const DocumentContent content = contentOf(source.file, imported);
+  const std::vector<LoadedPart> loaded = geometriesOf(imported, all, source, content, progress);
   LoadedDocument document;
   std::exception_ptr problem;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -364,8 +349,10 @@ LoadedDocument documentOf(CadDocument imported, const Source& source, const Prog
   if (all.empty()) throw FileError(source.file.string(), "it holds no shape", "export solids or surfaces");
   const bool isAny = std::ranges::any_of(document.shapes, [](const auto& shape) { return shape != nullptr; });
   if (!isAny) std::rethrow_exception(problem);
-  if (isOneFile(source.file))
-    TreeCache().storeText(outlineKeyOf(source, imported.sha256), outlineText(outline));
+  if (!content.name.empty()) {
+    TreeCache().storeText(outlineKeyOf(source, content), outlineText(outline));
+    storeCompanionNames(source.file, content, imported);
+  }
   document.file = normalisedPath(source.file);
   document.nodes = std::move(outline.nodes);
   document.warnings = std::move(outline.warnings);
@@ -398,7 +385,9 @@ PartGeometryPtr onlyShapeOf(const LoadedDocument& document, const Source& source
 }
 
 LoadedDocument loadWhole(const Source& source, const std::string& sha256, const ProgressCallback& progress) {
-  if (std::optional<LoadedDocument> kept = documentFromCache(source, sha256)) return std::move(*kept);
+  const auto content = contentOnDisk(source.file, sha256, stageOf(progress, kFileHashed, kDocumentHashed));
+  std::optional<LoadedDocument> kept = content ? documentFromCache(source, *content) : std::nullopt;
+  if (kept) return std::move(*kept);
   CadDocument imported = importAll(source, {}, progress);
   // The file may have changed since it was hashed. Its content when it was read counts.
   if (imported.sha256.empty()) imported.sha256 = sha256;
@@ -412,7 +401,8 @@ class ShapeLoad {
       : sources_(sources), source_(source), sha256_(std::move(sha256)), loaded_(sources.size()) {}
 
   std::vector<LoadedPart> run(const ProgressCallback& progress) {
-    takeCached();
+    content_ = contentOnDisk(source_.file, sha256_, stageOf(progress, kFileHashed, kDocumentHashed));
+    if (content_) takeCached();
     std::vector<std::string> missing;
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       if (loaded_[i].geometry == nullptr && std::ranges::find(missing, sources_[i].shape) == missing.end())
@@ -424,7 +414,6 @@ class ShapeLoad {
 
  private:
   void takeCached() {
-    if (!isOneFile(source_.file)) return;
     // Equal sources are looked for once.
     std::map<std::pair<std::string, std::string>, std::size_t> firstOf;
     std::vector<std::size_t> distinct;
@@ -434,9 +423,9 @@ class ShapeLoad {
     parallelFor(distinct.size(), [&](std::size_t i) {
       const MeshSource& wanted = sources_[distinct[i]];
       PartGeometryPtr& geometry = loaded_[distinct[i]].geometry;
-      geometry = fromCache(source_, sha256_, wanted.shape, wanted.repairs);
+      geometry = fromCache(source_, *content_, wanted.shape, wanted.repairs);
       if (geometry == nullptr && !wanted.repairs.empty())
-        geometry = fromCache(source_, sha256_, wanted.shape);
+        geometry = fromCache(source_, *content_, wanted.shape);
     });
     for (std::size_t i = 0; i < sources_.size(); ++i)
       loaded_[i] = loaded_[firstOf.at(keyOf(sources_[i]))];
@@ -449,8 +438,12 @@ class ShapeLoad {
   void importMissing(const std::vector<std::string>& missing, const ProgressCallback& progress) {
     CadDocument imported = importAll(source_, missing, progress);
     if (imported.sha256.empty()) imported.sha256 = sha256_;
-    if (imported.sha256 != sha256_)
+    const DocumentContent content = contentOf(source_.file, imported);
+    const bool isAnyCached =
+        std::ranges::any_of(loaded_, [](const LoadedPart& part) { return part.geometry != nullptr; });
+    if (imported.sha256 != sha256_ || (isAnyCached && content.name != content_->name))
       throw FileError(source_.file.string(), "it has changed while it was read", "try again");
+    storeCompanionNames(source_.file, content, imported);
     std::map<std::string, std::size_t> indexOf;
     for (std::size_t i = 0; i < imported.shapes.size(); ++i)
       indexOf.emplace(imported.shapes[i].key, i);
@@ -458,7 +451,7 @@ class ShapeLoad {
     for (const std::string& key : missing) {
       if (const auto it = indexOf.find(key); it != indexOf.end()) shapes.push_back(it->second);
     }
-    const std::vector<LoadedPart> built = geometriesOf(imported, shapes, source_, progress);
+    const std::vector<LoadedPart> built = geometriesOf(imported, shapes, source_, content, progress);
     std::map<std::string, LoadedPart> byKey;
     for (std::size_t i = 0; i < shapes.size(); ++i)
       byKey.emplace(imported.shapes[shapes[i]].key, built[i]);
@@ -483,6 +476,7 @@ class ShapeLoad {
   std::span<const MeshSource> sources_;
   const Source& source_;
   std::string sha256_;
+  std::optional<DocumentContent> content_;  ///< Before anything is imported, if the cache can tell.
   std::vector<LoadedPart> loaded_;
 };
 
@@ -491,7 +485,7 @@ std::vector<LoadedPart> loadShapesUnguarded(std::span<const MeshSource> sources,
   const MeshSource& first = sources.front();
   const Source source = sourceOf(first.file, first.metresPerUnit, first.tessellation);
   checkMeshFile(first.file);
-  const std::string sha256 = sha256OfFile(first.file, stageOf(progress, 0.0, kDocumentHashed));
+  const std::string sha256 = sha256OfFile(first.file, stageOf(progress, 0.0, kFileHashed));
   if (!first.sha256.empty() && first.sha256 != sha256) return std::vector<LoadedPart>(sources.size());
   const bool areAllNamed = std::ranges::none_of(sources, [](const MeshSource& s) { return s.shape.empty(); });
   if (areAllNamed) return ShapeLoad(sources, source, sha256).run(progress);
@@ -530,12 +524,12 @@ void checkTessellation(const Tessellation& tessellation) {
 }
 
 bool storesUnit(const fs::path& file) {
-  return isDocumentFile(file) && formatOf(file) != "brep";
+  return isDocumentFile(file) && documentFormat(file) != "brep";
 }
 
 bool mayBeInWrongUnit(const fs::path& file) {
   constexpr std::array<std::string_view, 4> kDoubtful{"gltf", "glb", "urdf", "3mf"};
-  return std::ranges::find(kDoubtful, formatOf(file)) != kDoubtful.end();
+  return std::ranges::find(kDoubtful, documentFormat(file)) != kDoubtful.end();
 }
 
 bool canChangeUnit(const PartGeometry& geometry) {
@@ -551,7 +545,7 @@ LoadedDocument loadDocument(const fs::path& file, double metresPerUnit, const Te
   checkMetresPerUnit(metresPerUnit);
   const Source source = sourceOf(file, unitToOpen(file, metresPerUnit), tessellation);
   checkMeshFile(file);
-  const std::string sha256 = sha256OfFile(file, stageOf(progress, 0.0, kDocumentHashed));
+  const std::string sha256 = sha256OfFile(file, stageOf(progress, 0.0, kFileHashed));
   LoadedDocument document = loadWhole(source, sha256, progress);
   stageOf(progress, kDocumentImported, 1.0)(1.0);
   return document;

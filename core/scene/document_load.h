@@ -45,7 +45,7 @@ struct LoadedDocument {
 };
 
 /// Imports a document and builds the mesh of each shape, once however often it is placed; or takes all of it from the
-/// cache, if nothing but the file itself makes up the document. Blocking.
+/// cache, if its file and its companions are as they were. Blocking.
 /// @param metresPerUnit  For a document that stores no unit.
 /// Throws FileError (also if it has no shape), UsageError, Cancelled.
 LoadedDocument loadDocument(const std::filesystem::path& file, double metresPerUnit,

@@ -53,6 +53,13 @@ class SurfaceOnDemand {
   std::shared_ptr<const UnsidedSurface> surface_;
 };
 
+/// A file that a document was read from besides its own.
+struct CompanionFile {
+  std::filesystem::path file;
+  std::string sha256;  ///< Of its bytes, hexadecimal.
+};
+using CompanionFiles = std::vector<CompanionFile>;
+
 /// A mesh file, or a shape of a CAD document, and what is derived from it: mass properties on loading, hierarchy and
 /// unsided surface on demand. Otherwise immutable. Shared by all parts with the same file, unit, shape, tessellation and
 /// repairs.
@@ -72,6 +79,8 @@ struct PartGeometry {
   std::string cacheName = {};
 
   std::string shapeKey = {};  ///< CadShape::key; empty for a mesh file.
+  /// Of the document; null if it has none, or not all are known. Shared by its shapes.
+  std::shared_ptr<const CompanionFiles> companions = {};
   /// As asked for: what the shape is loaded by. Zeros: chosen from its size.
   Tessellation tessellation = {};
   /// In effect; zeros for a mesh file.
@@ -80,8 +89,8 @@ struct PartGeometry {
   std::shared_ptr<const SurfaceFaces> surfaces = {};
   /// For each of the faces, or empty: std::nullopt for a face in the part's colour.
   std::vector<std::optional<CadColour>> faceColours = {};
-  bool isExact = false;      ///< Came from exact surfaces, so that it can be refined.
-  bool hasOwnUnit = false;   ///< The file stores its unit: metresPerUnit is 1 unless it is corrected.
+  bool isExact = false;     ///< Came from exact surfaces, so that it can be refined.
+  bool hasOwnUnit = false;  ///< The file stores its unit: metresPerUnit is 1 unless it is corrected.
   /// Metres per unit that a document states for its numbers, where it may state a wrong one (3MF); else 1.
   double statedUnit = 1.0;
   /// Metres per unit of the numbers in the file, as it is read.

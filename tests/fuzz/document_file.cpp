@@ -94,6 +94,9 @@ CadDocument someDocument(ByteSource& bytes) {
     document.nodes.push_back(someNode(bytes, i, document.shapes.size()));
   if (bytes.flag()) document.warnings.push_back(someText(bytes));
   if (bytes.flag()) document.statedUnit = bytes.number();
+  for (std::size_t i = bytes.below(3); i > 0; --i)
+    document.companions.push_back({someText(bytes), std::string(64, 'b')});
+  document.areCompanionsKnown = bytes.flag();
   return document;
 }
 

@@ -71,6 +71,12 @@ ThreeMfObject someObject(ByteSource& bytes) {
     for (std::uint32_t& corner : t)
       corner = static_cast<std::uint32_t>(bytes.below(object.vertices.size() + 1));
   }
+  constexpr CadColour kRed{1.0F, 0.0F, 0.0F}, kBlue{0.0F, 0.0F, 1.0F};
+  if (bytes.flag()) object.colour = kRed;
+  for (std::size_t i = bytes.flag() ? object.triangles.size() : 0; i > 0; --i) {
+    const std::size_t colour = bytes.below(3);
+    object.triangleColours.add(colour == 0 ? std::nullopt : std::optional(colour == 1 ? kRed : kBlue));
+  }
   return object;
 }
 

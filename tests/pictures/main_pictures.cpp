@@ -197,7 +197,8 @@ class Pictures {
                               {}};
     }
     grabFailure(QStringLiteral("errors"),
-                ui::describeItems(QStringLiteral("8 of 34 files could not be loaded. The others were added."), files));
+                ui::describeItems(QStringLiteral("8 of 34 files could not be loaded. The others were added."),
+                                  files));
   }
   void dialogs() {
     ui::MainWindow& window = driver_.window();

@@ -125,7 +125,7 @@ class Document : public SceneWork {
   QWidget* window_;
   BackgroundTask task_;
   QPointer<ProgressDialog> progress_;
-  std::map<QString, double> chosenUnits_;  ///< In this run, by folder and by ".type" [m].
+  std::map<QString, double> chosenUnits_;                   ///< In this run, by folder and by ".type" [m].
   std::vector<std::function<void(bool isReady)>> waiting_;  ///< Unanswered prepareHierarchies() calls.
 };
 

@@ -2,7 +2,9 @@
 
 #include <QDateTime>
 #include <QFileInfo>
+#include <algorithm>
 #include <memory>
+#include <set>
 
 #include "core/base/error.h"
 #include "core/files/sha256.h"
@@ -27,8 +29,13 @@ MeshWatch::Stamp MeshWatch::stampOf(const QString& file) {
 
 QSet<QString> MeshWatch::filesOfScene() const {
   QSet<QString> files;
+  // Shapes of a document share them.
+  std::set<const CompanionFiles*> taken;
   for (const PartGeometryPtr& geometry : session_.scene().geometries()) {
     if (!geometry->file.empty()) files << fromPath(geometry->file);
+    if (geometry->companions == nullptr || !taken.insert(geometry->companions.get()).second) continue;
+    for (const CompanionFile& companion : *geometry->companions)
+      files << fromPath(companion.file);
   }
   return files;
 }
@@ -109,14 +116,25 @@ void MeshWatch::compare(const QStringList& files) {
     }
   };
   task_.run(job, [this, hashes](const std::exception_ptr&) {
+    const auto differs = [&hashes](const QString& file, const std::string& sha256) {
+      return hashes->contains(file) && hashes->value(file) != sha256;
+    };
     QStringList different;
-    QSet<QString> listed;
+    std::set<const CompanionFiles*> same;
     for (const PartGeometryPtr& geometry : session_.scene().geometries()) {
       const QString file = fromPath(geometry->file);
-      if (!hashes->contains(file) || hashes->value(file) == geometry->sha256 || listed.contains(file))
-        continue;
-      listed << file;
-      different << file;
+      if (different.contains(file)) continue;
+      const CompanionFiles* companions = geometry->companions.get();
+      const bool isOwn = differs(file, geometry->sha256);
+      // Shapes of a document share them.
+      const bool isCompanion = !isOwn && companions != nullptr && !same.contains(companions) &&
+                               std::ranges::any_of(*companions, [&](const CompanionFile& companion) {
+                                 return differs(fromPath(companion.file), companion.sha256);
+                               });
+      if (isOwn || isCompanion)
+        different << file;
+      else
+        same.insert(companions);
     }
     if (!different.isEmpty()) emit changed(different);
   });

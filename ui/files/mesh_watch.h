@@ -12,9 +12,9 @@
 
 namespace nearfit::ui {
 
-/// Notices when a file that a part was read from gets other content. Also notices files that are replaced as
-/// a whole, as most programs save, by watching their folders. A file is examined once it has stayed the same
-/// for a moment; its content is compared in another thread.
+/// Notices when a file that a part was read from, or a companion of its document, gets other content. Also notices
+/// files that are replaced as a whole, as most programs save, by watching their folders. A file is examined once it has
+/// stayed the same for a moment; its content is compared in another thread.
 class MeshWatch : public QObject {
   Q_OBJECT
 
@@ -26,7 +26,7 @@ class MeshWatch : public QObject {
   explicit MeshWatch(Session& session, QObject* parent = nullptr);
 
  signals:
-  /// Emitted with the files whose content differs from what the parts were read from.
+  /// Emitted with the files whose content, or that of a companion, differs from what the parts were read from.
   void changed(const QStringList& files);
 
  private:

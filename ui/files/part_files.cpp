@@ -258,7 +258,9 @@ void PartFiles::load(const ProgressText& text, const std::vector<Wanted>& wanted
       const PartGeometryPtr& geometry = (*loaded)[sourceOf[i]].geometry;
       const Part* part = session_.scene().find(wanted[i].part);
       if (part == nullptr || !geometry) continue;
+      // The second name tells of companions too.
       const bool isSame = part->geometry->sha256 == geometry->sha256 &&
+                          part->geometry->cacheName == geometry->cacheName &&
                           part->geometry->metresPerUnit == geometry->metresPerUnit &&
                           part->geometry->tessellation == geometry->tessellation &&
                           part->geometry->repairs == geometry->repairs;

@@ -5,9 +5,12 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <thread>
 
+#include "core/files/sha256.h"
 #include "core/scene/scene_tree.h"
 #include "tests/app/desktop/dialog_answers.h"
 #include "tests/app/desktop/file_drop.h"
@@ -55,6 +58,7 @@ class DesktopDocumentsTest : public QObject {
   void meshesCannotBeRefined();
   void aSavedSceneComesBack();
   void aChangedDocumentIsReloadedInPlace();
+  void aChangedCompanionIsOfferedAndReloaded();
   void aDocumentThatFailsIsToldAndTheOthersAreAdded();
   void openReplacesTheSceneByThatOfADocumentUnlessItCannotBeRead();
 };
@@ -363,6 +367,33 @@ void DesktopDocumentsTest::aChangedDocumentIsReloadedInPlace() {
   QVERIFY2(told[0].contains(QStringLiteral("no shape")), qPrintable(told[0]));
 }
 
+void DesktopDocumentsTest::aChangedCompanionIsOfferedAndReloaded() {
+  DesktopDriver d;
+  const std::filesystem::path buffer = d.folder.write("block.bin", "0.1");
+  const FakeImporter importer([buffer](const Tessellation&) {
+    double width = 0.0;
+    std::ifstream(buffer) >> width;
+    CadDocument document;
+    document.shapes = {boxShape("block", {width, 0.06, 0.04})};
+    document.nodes = {instanceNode("block", -1, 0)};
+    document.companions = {{"block.bin", sha256OfFile(buffer)}};
+    return document;
+  });
+  drop(d.window(), {nameOf(d.folder.write("block.gltf", "{}"))});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  d.folder.write("block.bin", "0.25");
+  const auto offered = [&]() -> QPushButton* {
+    auto* notice = d.widget<QWidget>("notice-reload");
+    return notice != nullptr && notice->isVisible()
+               ? notice->findChild<QPushButton*>(QStringLiteral("choice1"))
+               : nullptr;
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(offered() != nullptr, 20'000);
+  QTest::mouseClick(offered(), Qt::LeftButton);
+  QTRY_VERIFY(isNear(widthOf(d.part("block")), 0.25, 1e-12));
+  QCOMPARE(importer.runs(), 2);
+}
+
 void DesktopDocumentsTest::aDocumentThatFailsIsToldAndTheOthersAreAdded() {
   DocumentDesk d;
   const FakeImporter importer([](const Tessellation& tessellation) -> CadDocument {
@@ -378,8 +409,8 @@ void DesktopDocumentsTest::aDocumentThatFailsIsToldAndTheOthersAreAdded() {
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
   QTRY_COMPARE(told.size(), 1);
   // What, what became of the others, why and what to do.
-  QVERIFY2(told[0].startsWith(QStringLiteral(
-               "“bad.step”, one of 2 files, could not be loaded. The others were added.\n")),
+  QVERIFY2(told[0].startsWith(
+               QStringLiteral("“bad.step”, one of 2 files, could not be loaded. The others were added.\n")),
            qPrintable(told[0]));
   QVERIFY2(told[0].contains(QStringLiteral("ends within an entity")), qPrintable(told[0]));
   QVERIFY2(told[0].contains(QStringLiteral("xport it again")), qPrintable(told[0]));

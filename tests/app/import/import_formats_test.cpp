@@ -1,21 +1,29 @@
 // IGES, BREP, glTF, 3MF and URDF, and files compressed by gzip.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "core/base/error.h"
+#include "core/files/sha256.h"
 #include "core/import/mesh_import.h"
+#include "core/scene/document_load.h"
 #include "tests/app/import/import_fixture.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/run_process.h"
+#include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::import_formats_test {
@@ -164,6 +172,114 @@ TEST(ImportFormats, GltfOfInfinitiesIsRefusedInOneSentenceWithARemedyThatHelps) 
   EXPECT_THAT(error.remedy(), testing::AllOf(HasSubstr("finite"), testing::Not(HasSubstr("solids"))));
 }
 
+/// Writes tetrahedra.glb as text, its buffer in a file of its own.
+/// @param isBlueMoved  The second tetrahedron is blue instead of green.
+fs::path writeGltfOfTwoFiles(const TemporaryFolder& folder, const std::string& name,
+                             const std::string& buffer, bool isBlueMoved = false) {
+  // Twelve bytes of the file's head; each chunk begins with its size, and four bytes that say what it is.
+  const std::string glb = test::readBytes(importModel("tetrahedra.glb"));
+  std::uint32_t size = 0;
+  std::memcpy(&size, glb.data() + 12, sizeof(size));
+  nlohmann::json json = nlohmann::json::parse(glb.substr(20, size));
+  json["buffers"][0]["uri"] = fs::path(buffer).filename().string();
+  if (isBlueMoved) {
+    json["meshes"].push_back(json["meshes"][0]);
+    json["meshes"][1]["primitives"][0]["material"] = 1;
+    json["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorFactor", {0.0, 0.0, 1.0, 1.0}}}}});
+    json["nodes"][2]["mesh"] = 1;
+  }
+  folder.write(buffer, glb.substr(28 + size));
+  return folder.write(name, json.dump());
+}
+
+TEST(ImportFormats, GltfListsTheFilesOfItsBuffers) {
+  const TemporaryFolder folder;
+  const CadDocument binary = imported(importModel("tetrahedra.glb"));
+  EXPECT_TRUE(binary.areCompanionsKnown && binary.companions.empty());
+  const CadDocument text = imported(writeGltfOfTwoFiles(folder, "rack.gltf", "rack.bin"));
+  EXPECT_TRUE(text.areCompanionsKnown);
+  ASSERT_EQ(text.companions.size(), 1U);
+  EXPECT_EQ(text.companions[0].name, "rack.bin");
+  EXPECT_EQ(text.companions[0].sha256, sha256OfFile(folder.path() / "rack.bin"));
+  EXPECT_EQ(text.shapes.size(), binary.shapes.size());
+}
+
+TEST(ImportFormats, GltfWhoseBufferIsMissingOrAPipeIsRefusedAndNamesIt) {
+  const TemporaryFolder folder;
+  const fs::path file = writeGltfOfTwoFiles(folder, "rack.gltf", "rack.bin");
+  fs::remove(folder.path() / "rack.bin");
+  EXPECT_THAT(refusal(file).problem(), testing::AllOf(HasSubstr("rack.bin"), HasSubstr("no such file")));
+  ASSERT_EQ(::mkfifo((folder.path() / "rack.bin").c_str(), 0600), 0);
+  EXPECT_THAT(refusal(file).where(), HasSubstr("rack.bin"));
+}
+
+TEST(ImportFormats, ThreeMfBringsColoursOfTrianglesAsFaces) {
+  const CadDocument document = imported(importModel("colours.3mf"));
+  ASSERT_EQ(document.shapes.size(), 3U);
+  ASSERT_EQ(document.nodes.size(), 3U);
+  const CadColour red{1.0F, 0.0F, 0.0F}, teal{0.0F, 128.0F / 255.0F, 64.0F / 255.0F}, blue{0.0F, 0.0F, 1.0F};
+  const CadShape& mixed = document.shapes[0];
+  EXPECT_EQ(document.nodes[0].colour, red);
+  ASSERT_EQ(mixed.triangles.size(), 4U);
+  // The object's colour is the part's, and can be changed with it.
+  EXPECT_EQ(mixed.faceColours, (std::vector<std::optional<CadColour>>{std::nullopt, teal, blue}));
+  EXPECT_THAT(mixed.surfaces.faceOfTriangle, testing::ElementsAre(0, 1, 2, 2));
+  for (const ExactSurface& surface : mixed.surfaces.faces)
+    EXPECT_EQ(surface.kind, SurfaceKind::Other);
+  EXPECT_FALSE(mixed.isExact);
+}
+
+TEST(ImportFormats, ThreeMfObjectWhoseTrianglesHaveOneColourIsAPartOfThatColour) {
+  const CadDocument document = imported(importModel("colours.3mf"));
+  ASSERT_EQ(document.shapes.size(), 3U);
+  EXPECT_EQ(document.nodes[1].colour, (CadColour{0.0F, 1.0F, 0.0F}));
+  EXPECT_FALSE(document.nodes[2].colour.has_value());
+  for (const std::size_t i : {1U, 2U}) {
+    EXPECT_TRUE(document.shapes[i].surfaces.faces.empty()) << i;
+    EXPECT_TRUE(document.shapes[i].faceColours.empty()) << i;
+  }
+}
+
+/// A robot of a base with a mesh and an arm of primitives.
+std::string robot(const std::string& mesh) {
+  return R"(<robot name="arm"><link name="base"><visual><origin xyz="0 0 1"/><geometry><mesh filename=")" +
+         mesh +
+         R"(" scale="2 2 2"/></geometry><material name="m"><color rgba="1 0.5 0 1"/></material></visual></link>
+<link name="tip"><collision><geometry><box size="0.2 0.4 0.6"/></geometry></collision></link>
+<joint name="j" type="revolute"><parent link="base"/><child link="tip"/><origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/>
+<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>)";
+}
+
+TEST(ImportFormats, DocumentsOfSeveralFilesComeFromTheCacheUntilOneChanges) {
+  const TemporaryFolder folder, cache;
+  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable where("NEARFIT_CACHE", cache.path().string());
+  fs::create_directories(folder.path() / "arm" / "meshes");
+  folder.write("arm/meshes/cube.stl", test::stlBinary(test::boxMesh(glm::dvec3(1.0), glm::dvec3(0.5))));
+  const fs::path gltf = writeGltfOfTwoFiles(folder, "rack.gltf", "rack.bin"),
+                 urdf = folder.write("arm/arm.urdf", robot("package://arm/meshes/cube.stl")),
+                 buffer = folder.path() / "rack.bin";
+  for (const fs::path& file : {gltf, urdf}) {
+    EXPECT_FALSE(loadDocument(file, 1.0).isFromCache) << file;
+    EXPECT_TRUE(loadDocument(file, 1.0).isFromCache) << file;
+  }
+  // The x of a corner that is at 1 in the first triangle, and of a cube.
+  std::string bytes = test::readBytes(buffer);
+  const float longer = 1.5F;
+  for (std::size_t at = 0; at + 12 <= 144; at += 12) {
+    float x = 0.0F;
+    std::memcpy(&x, bytes.data() + at, sizeof(x));
+    if (x == 1.0F) std::memcpy(bytes.data() + at, &longer, sizeof(longer));
+  }
+  folder.write("rack.bin", bytes);
+  folder.write("arm/meshes/cube.stl", test::stlBinary(test::boxMesh(glm::dvec3(3.0), glm::dvec3(0.5))));
+  const LoadedDocument rack = loadDocument(gltf, 1.0), arm = loadDocument(urdf, 1.0);
+  EXPECT_FALSE(rack.isFromCache || arm.isFromCache);
+  EXPECT_NEAR(rack.shapes[0]->mesh.bounds().upper.x, 1.5, 1e-6);
+  EXPECT_NEAR(arm.shapes[0]->mass.volume, 8.0 * 27.0, 1e-6);
+  EXPECT_TRUE(loadDocument(gltf, 1.0).isFromCache && loadDocument(urdf, 1.0).isFromCache);
+}
+
 TEST(ImportFormats, ThreeMfBringsItsUnitComponentsAndNames) {
   const CadDocument document = imported(importModel("set.3mf"));
   constexpr double kInch = 0.0254;
@@ -189,16 +305,6 @@ TEST(ImportFormats, ThreeMfBringsTheColourOfAnObjectsMaterial) {
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_NEAR((*document.nodes[i].colour)[k], wanted[k], 1e-6);
   }
-}
-
-/// A robot of a base with a mesh and an arm of primitives.
-std::string robot(const std::string& mesh) {
-  return R"(<robot name="arm"><link name="base"><visual><origin xyz="0 0 1"/><geometry><mesh filename=")" +
-         mesh +
-         R"(" scale="2 2 2"/></geometry><material name="m"><color rgba="1 0.5 0 1"/></material></visual></link>
-<link name="tip"><collision><geometry><box size="0.2 0.4 0.6"/></geometry></collision></link>
-<joint name="j" type="revolute"><parent link="base"/><child link="tip"/><origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/>
-<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>)";
 }
 
 /// A folder of a package with the robot in urdf/ and a cube of 1 m in meshes/.
@@ -237,6 +343,19 @@ TEST(ImportFormats, UrdfPlacesLinksByTheirJointsAtZero) {
             {0.8, 1.9, 2.7}, {1.2, 2.1, 3.3});
 }
 
+TEST(ImportFormats, UrdfListsItsMeshesWhateverIsWantedOfIt) {
+  const Package package("package://arm_description/meshes/cube.stl");
+  for (const std::vector<std::string>& wanted :
+       {std::vector<std::string>(), std::vector<std::string>{"tip box"}}) {
+    const CadDocument document = imported(package.file(), {{}, wanted});
+    EXPECT_TRUE(document.areCompanionsKnown);
+    ASSERT_EQ(document.companions.size(), 1U);
+    EXPECT_EQ(document.companions[0].name, "package://arm_description/meshes/cube.stl");
+    EXPECT_EQ(document.companions[0].sha256, sha256OfFile(package.root() / "meshes/cube.stl"));
+  }
+  EXPECT_FALSE(imported(Package("../meshes/missing.stl").file()).areCompanionsKnown);
+}
+
 TEST(ImportFormats, UrdfFindsMeshesWithinItsPackage) {
   for (const char* mesh : {"../meshes/cube.stl", "package://arm_description/meshes/cube.stl",
                            "package://renamed/meshes/cube.stl"})
@@ -256,6 +375,74 @@ TEST(ImportFormats, UrdfReadsNothingOutsideOfItsPackage) {
   }
 }
 
+/// A robot of a mesh, in a colour if that is given.
+std::string robotOf(const std::string& mesh, const std::string& rgba = {}) {
+  const std::string material =
+      rgba.empty() ? std::string() : R"(<material name="m"><color rgba=")" + rgba + R"("/></material>)";
+  return R"(<robot name="arm"><link name="base"><visual><origin xyz="0 0 1"/><geometry><mesh filename=")" +
+         mesh + R"(" scale="2 2 2"/></geometry>)" + material + "</visual></link></robot>";
+}
+
+TEST(ImportFormats, UrdfTakesAGltfFileAsOneShapeOfAllItsNodes) {
+  const TemporaryFolder folder;
+  folder.write("rack.glb", test::readBytes(importModel("tetrahedra.glb")));
+  const CadDocument document = imported(folder.write("arm.urdf", robotOf("rack.glb")));
+  ASSERT_EQ(document.shapes.size(), 1U);
+  ASSERT_EQ(document.nodes.size(), 2U);
+  EXPECT_TRUE(document.warnings.empty());
+  // The glTF file by itself is 3 x 2 x 5 m large, of which y, up in the file, is z; here it is twice that, 1 m up.
+  expectBox(boxOf(document), {0, -4, 1}, {6, 0, 11});
+  const CadShape& shape = document.shapes[0];
+  EXPECT_EQ(shape.triangles.size(), 12U);
+  EXPECT_EQ(test::unmatchedEdges(shape), 0U);
+  // Two tetrahedra of a sixth, and one of twice the size, all twice as large.
+  EXPECT_NEAR(test::volumeOf(shape), 8.0 * (2.0 + 8.0) / 6.0, 1e-12);
+  EXPECT_EQ(document.nodes[1].name, "base");
+  EXPECT_EQ(document.nodes[1].colour, (CadColour{0.0F, 1.0F, 0.0F}));
+  EXPECT_TRUE(shape.faceColours.empty());
+}
+
+TEST(ImportFormats, UrdfKeepsTheColoursOfAGltfFileUnlessItGivesOneItself) {
+  const TemporaryFolder folder;
+  writeGltfOfTwoFiles(folder, "rack.gltf", "rack.bin", true);
+  const CadDocument plain = imported(folder.write("plain.urdf", robotOf("rack.gltf")));
+  ASSERT_EQ(plain.shapes.size(), 1U);
+  const CadColour green{0.0F, 1.0F, 0.0F}, blue{0.0F, 0.0F, 1.0F};
+  EXPECT_FALSE(plain.nodes.at(1).colour.has_value());
+  EXPECT_EQ(plain.shapes[0].faceColours, (std::vector<std::optional<CadColour>>{green, blue}));
+  EXPECT_EQ(plain.shapes[0].surfaces.faceOfTriangle,
+            (std::vector<std::uint32_t>{0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0}));
+  const CadDocument red = imported(folder.write("red.urdf", robotOf("rack.gltf", "1 0 0 1")));
+  ASSERT_EQ(red.shapes.size(), 1U);
+  EXPECT_EQ(red.nodes.at(1).colour, (CadColour{1.0F, 0.0F, 0.0F}));
+  EXPECT_TRUE(red.shapes[0].faceColours.empty());
+}
+
+TEST(ImportFormats, UrdfListsTheBuffersOfItsGltfFilesToo) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "arm" / "meshes");
+  folder.write("arm/package.xml", "<package/>");
+  writeGltfOfTwoFiles(folder, "arm/meshes/rack.gltf", "arm/meshes/rack.bin");
+  const fs::path file = folder.write("arm/arm.urdf", robotOf("package://arm/meshes/rack.gltf"));
+  const CadDocument document = imported(file);
+  EXPECT_TRUE(document.areCompanionsKnown);
+  ASSERT_EQ(document.companions.size(), 2U);
+  EXPECT_EQ(document.companions[0].name, "package://arm/meshes/rack.gltf");
+  EXPECT_EQ(document.companions[1].name, "package://arm/meshes/rack.bin");
+  EXPECT_EQ(document.companions[1].sha256, sha256OfFile(folder.path() / "arm/meshes/rack.bin"));
+}
+
+TEST(ImportFormats, UrdfLeavesOutAGltfFileThatIsDamagedOrLacksItsBuffer) {
+  const TemporaryFolder folder;
+  writeGltfOfTwoFiles(folder, "rack.gltf", "rack.bin");
+  fs::remove(folder.path() / "rack.bin");
+  EXPECT_THAT(refusal(folder.write("a.urdf", robotOf("rack.gltf"))).problem(),
+              testing::AllOf(HasSubstr("rack.gltf is left out"), HasSubstr("rack.bin")));
+  folder.write("rack.glb", "glTF");
+  EXPECT_THAT(refusal(folder.write("b.urdf", robotOf("rack.glb"))).problem(),
+              testing::AllOf(HasSubstr("rack.glb is left out"), HasSubstr("cut off")));
+}
+
 TEST(ImportFormats, UrdfSaysThatColladaIsNotRead) {
   const Package package("../meshes/arm.dae");
   {
@@ -263,7 +450,8 @@ TEST(ImportFormats, UrdfSaysThatColladaIsNotRead) {
   }
   const CadDocument document = imported(package.file());
   ASSERT_EQ(document.warnings.size(), 1U);
-  EXPECT_THAT(document.warnings[0], HasSubstr("dae is not read"));
+  EXPECT_THAT(document.warnings[0],
+              testing::AllOf(HasSubstr("COLLADA (.dae) is not read"), HasSubstr("glTF")));
 }
 
 TEST(ImportFormats, TheRobotBesideTheRepositoryOpensWithAllLinks) {
@@ -301,7 +489,8 @@ TEST(ImportFormats, FilesOfAnotherFormatThanTheirNameSaysAreRefused) {
 
 TEST(ImportFormats, EachPrefixOfASmallFileIsReadOrRefused) {
   const TemporaryFolder folder;
-  for (const char* name : {"box.brep", "set.3mf", "tetrahedra.glb", "box.igs", "two_solids.step"}) {
+  for (const char* name :
+       {"box.brep", "set.3mf", "colours.3mf", "tetrahedra.glb", "box.igs", "two_solids.step"}) {
     const std::string bytes = test::readBytes(importModel(name));
     for (std::size_t k = 1; k < 12; ++k) {
       try {

@@ -191,6 +191,7 @@ def make_other_files():
         struct.pack("<I4s", len(data), b"BIN\0") + data)
 
     make_threemf(points, corners)
+    make_coloured_threemf(points, corners)
 
 
 def make_threemf(points, corners):
@@ -204,8 +205,34 @@ def make_threemf(points, corners):
              '<object id="2" name="set" type="model"><components><component objectid="1"/>'
              '<component objectid="1" transform="0 1 0 -1 0 0 0 0 1 5 6 7"/></components></object></resources>'
              '<build><item objectid="2" transform="1 0 0 0 1 0 0 0 1 10 0 0"/></build></model>')
-    with zipfile.ZipFile(MODELS / "set.3mf", "w", zipfile.ZIP_DEFLATED) as package:
-        for name, content in (
+    write_threemf("set.3mf", model)
+
+
+def make_coloured_threemf(points, corners):
+    """Three tetrahedra: one red by its object, with a teal and two blue triangles; one whose triangles are all green; and
+    one without a colour."""
+    vertices = "".join(f'<vertex x="{x}" y="{y}" z="{z}"/>' for x, y, z in points)
+
+    def tetrahedron(number, name, of_object, of_triangles):
+        triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"{of}/>' for (a, b, c), of in zip(corners, of_triangles))
+        return (f'<object id="{number}" name="{name}" type="model"{of_object}><mesh><vertices>{vertices}</vertices>'
+                f'<triangles>{triangles}</triangles></mesh></object>')
+
+    blue, green = ' pid="6" p1="0"', ' pid="6" p1="1"'
+    write_threemf("colours.3mf", (
+        '<?xml version="1.0" encoding="UTF-8"?><model unit="millimeter" xml:lang="en-US" '
+        'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" '
+        'xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02"><resources>'
+        '<basematerials id="5"><base name="red" displaycolor="#FF0000"/><base name="teal" displaycolor="#008040"/></basematerials>'
+        '<m:colorgroup id="6"><m:color color="#0000FF"/><m:color color="#00FF00"/></m:colorgroup>'
+        + tetrahedron(1, "mixed", ' pid="5" pindex="0"', ["", ' pid="5" p1="1"', blue, blue])
+        + tetrahedron(2, "green", "", [green] * 4) + tetrahedron(3, "plain", "", [""] * 4) +
+        '</resources><build><item objectid="1"/><item objectid="2"/><item objectid="3"/></build></model>'))
+
+
+def write_threemf(name, model):
+    with zipfile.ZipFile(MODELS / name, "w", zipfile.ZIP_DEFLATED) as package:
+        for member, content in (
                 ("[Content_Types].xml",
                  '<?xml version="1.0" encoding="UTF-8"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">'
                  '<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
@@ -214,7 +241,7 @@ def make_threemf(points, corners):
                  '<?xml version="1.0" encoding="UTF-8"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
                  '<Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'),
                 ("3D/3dmodel.model", model)):
-            package.writestr(zipfile.ZipInfo(name, (2026, 1, 1, 0, 0, 0)), content)
+            package.writestr(zipfile.ZipInfo(member, (2026, 1, 1, 0, 0, 0)), content)
 
 
 def volume_of(shape):

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/import/companion_files.h"
 
 namespace nearfit::document_file_test {
 namespace {
@@ -67,6 +68,8 @@ CadDocument tetrahedra() {
   document.nodes = {group, first, second};
   document.warnings = {"One product has no shape."};
   document.sha256 = std::string(64, 'a');
+  document.companions = {{"../meshes/\xC3\xBC.stl", std::string(64, 'b')},
+                         {"package://arm/cube.stl", std::string(64, 'c')}};
   return document;
 }
 
@@ -134,6 +137,30 @@ TEST(DocumentFile, TheTreeComesBackWithNamesPlacesAndColours) {
     EXPECT_EQ(b.parentFromNode.translation, a.parentFromNode.translation);
     EXPECT_EQ(b.colour, a.colour);
   }
+}
+
+TEST(DocumentFile, CompanionsComeBackWithTheirHashes) {
+  CadDocument document = tetrahedra();
+  for (const bool areKnown : {true, false}) {
+    document.areCompanionsKnown = areKnown;
+    const CadDocument got = reread(document);
+    EXPECT_EQ(got.areCompanionsKnown, areKnown);
+    ASSERT_EQ(got.companions.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(got.companions[i].name, document.companions[i].name);
+      EXPECT_EQ(got.companions[i].sha256, document.companions[i].sha256);
+    }
+  }
+}
+
+TEST(DocumentFile, CompanionsHaveNamesAndHashesWithinTheirLimits) {
+  for (const std::string& name : {std::string(), std::string("/etc/passwd"), std::string("a\nb"),
+                                  std::string("\xFF"), std::string(kMaxCompanionNameBytes + 1, 'x')})
+    expectRefused([&](CadDocument& d) { d.companions[0].name = name; }, "its name is too long, absolute");
+  expectRefused([](CadDocument& d) { d.companions[1].name = d.companions[0].name; }, "its name repeats");
+  expectRefused([](CadDocument& d) { d.companions[1].sha256 = "abc"; }, "no SHA-256");
+  expectRefused([](CadDocument& d) { d.companions.resize(kMaxCompanions + 1, d.companions[0]); },
+                "there are too many");
 }
 
 TEST(DocumentFile, ADocumentOfFormatsOfTrianglesNeedsNoFaces) {

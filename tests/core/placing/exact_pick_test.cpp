@@ -70,6 +70,24 @@ test::ExactSolid sixSided() {
   return test::turnedSolid(profile, {test::cylinderAboutZ(0.01)}, faces, kSegments);
 }
 
+TEST(ExactPick, FacesThatOnlyTellColoursApartHideNoEdges) {
+  const TriangleMesh box = test::boxMesh(glm::dvec3(1.0));
+  SurfaceFaces coloured;
+  coloured.faces.resize(1);
+  coloured.faceOfTriangle.assign(box.triangles().size(), 0);
+  std::size_t edges = 0;
+  for (std::uint32_t t = 0; t < box.triangles().size(); ++t) {
+    const SurfaceHit hit = besideFirstSide(box, t);
+    const auto with = pickFeature(box, hit, kReach, FeatureFilter::Any, &coloured),
+               without = pickFeature(box, hit, kReach);
+    ASSERT_EQ(with.has_value(), without.has_value());
+    if (!with) continue;
+    EXPECT_EQ(with->feature.shape, without->feature.shape) << t;
+    edges += with->feature.shape == FeatureShape::Axis ? 1 : 0;
+  }
+  EXPECT_GT(edges, 0U) << "sides are edges of the box";
+}
+
 TEST(ExactPick, SixFacetsOfACylinderGiveItsOwnAxisAndRadius) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const RigidTransform pose = somePose(seed);

@@ -178,16 +178,105 @@ TEST_F(DocumentLoad, DamagedCacheCostsTimeOnly) {
   }
 }
 
-TEST_F(DocumentLoad, DocumentOfSeveralFilesIsImportedEachTimeAndKeepsItsHierarchies) {
-  // Its own SHA-256 does not say what the files beside it hold.
-  const test::FakeImporter importer;
-  const std::filesystem::path gltf = folder_.write("vise.gltf", "{}");
-  const LoadedDocument first = loadDocument(gltf, 1.0);
-  first.shapes[1]->tree();
-  const LoadedDocument second = loadDocument(gltf, 1.0);
-  EXPECT_EQ(importer.runs(), 2);
-  second.shapes[1]->tree();
-  EXPECT_TRUE(second.shapes[1]->hierarchy->origin()->isFromCache);
+/// A glTF document of a box, whose height [m] is the text of a file beside it.
+class DocumentOfTwoFiles : public DocumentLoad {
+ protected:
+  void writeHeight(const std::string& height) const { folder_.write("box.bin", height); }
+  double loadedHeight() const { return loadDocument(gltf_, 1.0).shapes[0]->mesh.bounds().upper.z * 2.0; }
+
+  const std::filesystem::path gltf_ = folder_.write("box.gltf", "{}"),
+                              buffer_ = folder_.write("box.bin", "0.5");
+  /// Lets the importer list a file that it did not find, and so cannot vouch for what it made.
+  bool areCompanionsKnown_ = true;
+  std::string listed_ = "box.bin";
+  const test::FakeImporter importer_{[this](const Tessellation&) {
+    double height = 0.0;
+    if (!(std::ifstream(buffer_) >> height))
+      throw FileError(gltf_.string(), "its buffer box.bin cannot be read", "put it back");
+    CadDocument document;
+    document.shapes = {test::boxShape("box", {0.1, 0.1, height}), test::boxShape("lid", {0.1, 0.1, 0.01})};
+    document.nodes = {test::instanceNode("box", -1, 0), test::instanceNode("lid", -1, 1)};
+    document.companions = {{listed_, sha256OfFile(buffer_)}};
+    document.areCompanionsKnown = areCompanionsKnown_;
+    return document;
+  }};
+};
+
+TEST_F(DocumentOfTwoFiles, SecondOpeningNeedsNoImporterWhileBothAreTheSame) {
+  const LoadedDocument first = loadDocument(gltf_, 1.0), second = loadDocument(gltf_, 1.0);
+  EXPECT_EQ(importer_.runs(), 1);
+  EXPECT_TRUE(second.isFromCache);
+  for (const LoadedDocument* document : {&first, &second}) {
+    const PartGeometry& box = *document->shapes.at(0);
+    EXPECT_EQ(box.sha256, sha256OfFile(gltf_));
+    ASSERT_NE(box.companions, nullptr);
+    ASSERT_EQ(box.companions->size(), 1U);
+    EXPECT_EQ(box.companions->front().sha256, sha256OfFile(buffer_));
+    EXPECT_TRUE(std::filesystem::equivalent(box.companions->front().file, buffer_));
+    EXPECT_EQ(document->shapes[1]->companions, box.companions) << "they are kept once";
+  }
+  first.shapes[0]->tree();
+  const LoadedDocument third = loadDocument(gltf_, 1.0);
+  third.shapes[0]->tree();
+  EXPECT_TRUE(third.shapes[0]->hierarchy->origin()->isFromCache);
+}
+
+TEST_F(DocumentOfTwoFiles, ShapesByTheirKeysComeFromTheCacheTooWithoutTheirTree) {
+  const std::vector<MeshSource> box{{gltf_, 1.0, {}, "box"}}, both{box[0], {gltf_, 1.0, {}, "lid"}};
+  loadPartGeometries(box);
+  EXPECT_NE(loadPartGeometries(box)[0].geometry, nullptr);
+  EXPECT_EQ(importer_.runs(), 1);
+  loadPartGeometries(both);
+  ASSERT_EQ(importer_.runs(), 2);
+  EXPECT_THAT(importer_.asked()[1].onlyShapes, UnorderedElementsAre("lid"));
+  writeHeight("0.7");
+  const std::vector<LoadedPart> changed = loadPartGeometries(both);
+  EXPECT_EQ(importer_.runs(), 3);
+  EXPECT_NEAR(2.0 * changed[0].geometry->mesh.bounds().upper.z, 0.7, 1e-12);
+}
+
+TEST_F(DocumentOfTwoFiles, ChangedCompanionIsSeenAndTheOldOneComesFromTheCacheAgain) {
+  EXPECT_NEAR(loadedHeight(), 0.5, 1e-12);
+  writeHeight("0.7");
+  EXPECT_NEAR(loadedHeight(), 0.7, 1e-12);
+  EXPECT_NEAR(loadedHeight(), 0.7, 1e-12);
+  EXPECT_EQ(importer_.runs(), 2);
+  writeHeight("0.5");
+  EXPECT_NEAR(loadedHeight(), 0.5, 1e-12);
+  EXPECT_EQ(importer_.runs(), 2);
+}
+
+TEST_F(DocumentOfTwoFiles, MissingCompanionGivesTheImportersError) {
+  loadedHeight();
+  std::filesystem::remove(buffer_);
+  for (int i = 0; i < 2; ++i) {
+    try {
+      loadDocument(gltf_, 1.0);
+      ADD_FAILURE() << "it opened";
+    } catch (const FileError& error) {
+      EXPECT_EQ(error.problem(), "its buffer box.bin cannot be read");
+    }
+    std::filesystem::create_directory(buffer_);
+  }
+  std::filesystem::remove(buffer_);
+  writeHeight("0.5");
+  EXPECT_TRUE(loadDocument(gltf_, 1.0).isFromCache);
+}
+
+TEST_F(DocumentOfTwoFiles, DocumentIsImportedEachTimeWhileNotAllItsCompanionsAreKnownAndKeepsItsHierarchies) {
+  areCompanionsKnown_ = false;
+  for (const char* listed : {"box.bin", "../box.bin", "/etc/passwd", "../../../../../../etc/passwd"}) {
+    listed_ = listed;
+    const int before = importer_.runs();
+    loadDocument(gltf_, 1.0).shapes[0]->tree();
+    const LoadedDocument again = loadDocument(gltf_, 1.0);
+    EXPECT_EQ(importer_.runs(), before + 2) << listed;
+    EXPECT_EQ(again.shapes[0]->companions, nullptr) << listed;
+    again.shapes[0]->tree();
+    EXPECT_TRUE(again.shapes[0]->hierarchy->origin()->isFromCache);
+    // From the second round on, it is where they lie alone that is wrong.
+    areCompanionsKnown_ = true;
+  }
 }
 
 TEST_F(DocumentLoad, AllShapesOfADocumentComeFromOneRun) {

@@ -58,8 +58,8 @@ TEST(LikelyMeshUnit, FollowsThePartsThatAreThere) {
 }
 
 TEST(LikelyMeshUnit, IsMillimetresWhereThereIsNoSize) {
-  for (const double size : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
-                            std::numeric_limits<double>::infinity()})
+  for (const double size :
+       {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     EXPECT_EQ(likelyMeshUnit(size, kHand, kHand), 1e-3) << size;
 }
 

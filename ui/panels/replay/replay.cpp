@@ -95,8 +95,7 @@ void Replay::open(const QString& file) {
   close();
   Preferences::rememberFolderOf(file);
   auto read = std::make_shared<Recording>();
-  progress_ =
-      new ProgressDialog(tr("Reading"), tr("Reading %1").arg(QFileInfo(file).fileName()), window_);
+  progress_ = new ProgressDialog(tr("Reading"), tr("Reading %1").arg(QFileInfo(file).fileName()), window_);
   connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
   connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
   const auto job = [read, path = toPath(file)](const ProgressCallback& progress) {

@@ -1,11 +1,14 @@
-#include "app/import/urdf_files.h"
+#include "core/import/companion_files.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <system_error>
 
-namespace nearfit::importer {
+#include "core/import/document_import.h"
+#include "core/text/utf8.h"
+
+namespace nearfit {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,17 +45,39 @@ bool isInside(const fs::path& path, const fs::path& folder) {
   return !error && std::mismatch(base.begin(), base.end(), full.begin(), full.end()).first == base.end();
 }
 
+/// Finds what a relative path names, within a folder.
+FoundFile findWithin(const fs::path& base, const fs::path& inside, const std::string& relative) {
+  if (fs::path(relative).is_absolute()) return {{}, "it is an absolute path, which is not followed"};
+  const fs::path path = (base / relative).lexically_normal();
+  if (!isInside(path, inside)) return {{}, "it lies outside of the file's package"};
+  std::error_code error;
+  if (!fs::exists(path, error)) return {{}, "there is no such file"};
+  return {path, {}};
+}
+
+fs::path folderOf(const fs::path& file) {
+  std::error_code error;
+  return fs::absolute(file, error).parent_path().lexically_normal();
+}
+
 bool isPackageName(const std::string& name) {
   return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
 }
 
 }  // namespace
 
-UrdfFiles::UrdfFiles(const ImportJob& job) {
-  std::error_code error;
-  folder_ = fs::absolute(job.file, error).parent_path().lexically_normal();
-  root_ = rootOf(folder_);
-  const std::string_view text(job.bytes.data(), job.bytes.size());
+bool isCompanionName(std::string_view name) {
+  return !name.empty() && name.size() <= kMaxCompanionNameBytes && isPrintableUtf8(name) &&
+         !fs::path(name).is_absolute();
+}
+
+bool mayHaveCompanions(const fs::path& document) {
+  constexpr std::array<std::string_view, 3> kFormats{"gltf", "glb", "urdf"};
+  return std::ranges::find(kFormats, documentFormat(document)) != kFormats.end();
+}
+
+UrdfFiles::UrdfFiles(const fs::path& file, std::string_view text)
+    : folder_(folderOf(file)), root_(rootOf(folder_)) {
   for (std::size_t at = text.find(kPackage); at != std::string_view::npos; at = text.find(kPackage, at + 1)) {
     const std::string_view rest = text.substr(at + kPackage.size());
     const std::string name(rest.substr(0, rest.find_first_of("/\"'<>&")));
@@ -60,7 +85,7 @@ UrdfFiles::UrdfFiles(const ImportJob& job) {
   }
 }
 
-std::filesystem::path UrdfFiles::packageOf(const std::string& name) const {
+fs::path UrdfFiles::packageOf(const std::string& name) const {
   fs::path at = root_;
   for (int i = 0; i <= kMaxAncestors && !at.empty(); ++i, at = above(at)) {
     if (at.filename() == name) return at;
@@ -70,32 +95,37 @@ std::filesystem::path UrdfFiles::packageOf(const std::string& name) const {
   return root_;
 }
 
-std::vector<std::filesystem::path> UrdfFiles::folders() const {
+std::vector<fs::path> UrdfFiles::folders() const {
   std::vector<fs::path> folders{root_};
   for (const auto& package : packages_)
     folders.push_back(package.second);
   return folders;
 }
 
-UrdfFiles::Found UrdfFiles::find(const std::string& name) const {
-  fs::path base = folder_, inside = root_;
-  std::string relative = name;
-  if (relative.starts_with(kPackage)) {
-    relative.erase(0, kPackage.size());
+FoundFile UrdfFiles::find(const std::string& name) const {
+  if (name.starts_with(kPackage)) {
+    std::string relative = name.substr(kPackage.size());
     const std::string package = relative.substr(0, relative.find('/'));
     const auto known = packages_.find(package);
     if (known == packages_.end()) return {{}, "its package is not found"};
-    base = inside = known->second;
     relative.erase(0, std::min(relative.size(), package.size() + 1));
-  } else if (relative.find("://") != std::string::npos) {
-    return {{}, "it is an address, which is not followed"};
+    return findWithin(known->second, known->second, relative);
   }
-  if (fs::path(relative).is_absolute()) return {{}, "it is an absolute path, which is not followed"};
-  const fs::path path = (base / relative).lexically_normal();
-  if (!isInside(path, inside)) return {{}, "it lies outside of the file's package"};
-  std::error_code error;
-  if (!fs::exists(path, error)) return {{}, "there is no such file"};
-  return {path, {}};
+  if (name.find("://") != std::string::npos) return {{}, "it is an address, which is not followed"};
+  return findWithin(folder_, root_, name);
 }
 
-}  // namespace nearfit::importer
+CompanionFinder::CompanionFinder(const fs::path& document, std::span<const std::string> names)
+    : folder_(folderOf(document)) {
+  if (documentFormat(document) != "urdf") return;
+  std::string text;
+  for (const std::string& name : names)
+    text += name + '"';
+  urdf_.emplace(document, text);
+}
+
+FoundFile CompanionFinder::find(const std::string& name) const {
+  return urdf_ ? urdf_->find(name) : findWithin(folder_, folder_, name);
+}
+
+}  // namespace nearfit
