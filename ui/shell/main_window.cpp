@@ -115,6 +115,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   const auto* welcome = new WelcomeCard(
       session_, {files_->openDemo, shell_->tour(), files_->addParts, files_->open}, viewport_);
   connect(welcome, &WelcomeCard::recentWanted, files_, &FileCommands::openRecent);
+  notes_->endAtCommandsOf(*this);
   changes_ = session_.onChange(SceneEvents::Stage::View, [this, serial = session_.sceneSerial()]() mutable {
     viewport_->setScene(session_.scene());
     if (std::exchange(serial, session_.sceneSerial()) != session_.sceneSerial()) shell_->endTour();
