@@ -288,6 +288,7 @@ void MainWindow::makeToolsAndMenus() {
   listenTo(*placing_, *handControl_, *selectedPose_, *align, *drop, *box, *exporter, *pictures);
   connect(units_, &UnitMenu::unitChanged, measure, &MeasureTool::refresh);
   connect(units_, &UnitMenu::unitChanged, history_, &HistoryPanel::refresh);
+  connect(units_, &UnitMenu::unitChanged, selectedPose_, &SelectedPose::refresh);
   connect(exporter, &Exporter::sceneNeeded, posePanel_, &PosePanel::commit);
   connect(clearanceMap_, &ClearanceMapPanel::exportWanted, exporter, &Exporter::exportMap);
 }
