@@ -77,6 +77,7 @@ void Viewport::changeEvent(QEvent* event) {
   QVTKOpenGLNativeWidget::changeEvent(event);
   if (event->type() != QEvent::PaletteChange) return;
   setUpBackground(*renderer_);
+  parts_.followTheme();
   requestRender();
 }
 

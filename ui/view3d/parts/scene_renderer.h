@@ -42,6 +42,8 @@ class SceneRenderer {
   /// While there is a moving part, makes all others translucent, so that gaps between them can be seen.
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);
+  /// Takes the colours of the present theme; call when it has changed.
+  void followTheme();
   /// Moves parts to where ShownPoses has them now; ignores those that are not in the scene.
   void place(std::span<const PartId> parts);
 
