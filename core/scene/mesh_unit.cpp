@@ -39,6 +39,13 @@ double parseMeshUnit(std::string_view text, const std::string& where) {
   return *metres;
 }
 
+std::string meshUnitText(double metresPerUnit) {
+  for (const auto& [name, metres] : kMeshUnits) {
+    if (metresPerUnit == metres) return std::string(name);
+  }
+  return fmt::format("units of {} m", metresPerUnit);
+}
+
 std::optional<glm::dvec3> extentOfMeshFiles(std::span<const std::filesystem::path> files,
                                             const ProgressCallback& progress) {
   SharedProgress all(progress, static_cast<double>(std::max<std::size_t>(files.size(), 1)));

@@ -17,6 +17,9 @@ namespace nearfit {
 /// @param where  Option or field that holds the text, for the error.
 double parseMeshUnit(std::string_view text, const std::string& where);
 
+/// Returns a unit in words that follow "in": "mm", "in", "units of 0.5 m".
+std::string meshUnitText(double metresPerUnit);
+
 /// Returns the extent of mesh files, and of CAD documents without units, along each axis, in their units: of the box around all of them, each at
 /// its own coordinates. Leaves out files that cannot be read; std::nullopt if none can. Reads files in
 /// parallel. Blocking: not for the GUI thread. Throws Cancelled.
