@@ -117,8 +117,9 @@ void addClearanceMapCommand(CLI::App& program) {
   command->add_option("--histogram", options->histogram, "Histogram to write")->type_name("FILE.csv");
   command->add_option("--threshold", options->threshold, "Print the area nearer than this [m]");
   command
-      ->add_option("--unit", options->unit,
-                   "Unit of the map's coordinates and distances: m, cm, mm, um, in, ft, or a number of metres")
+      ->add_option(
+          "--unit", options->unit,
+          "Unit of the map's coordinates and distances: m, cm, mm, um, in, ft, or a number of metres")
       ->capture_default_str();
   command->footer(kClearanceMapFooter);
   command->callback([options] { runClearanceMap(*options); });

@@ -64,8 +64,8 @@ void writeMapHeader(MeshFile& out, const ClearanceMap& map, const Scene& scene, 
   const double range = map.range / metresPerUnit;
   fmt::format_to(text,
                  "ply\nformat binary_little_endian 1.0\n"
-                 "comment Nearfit clearance map; world frame; x, y, z and distance in {}; only triangles with a "
-                 "corner within {:.6g}\n",
+                 "comment Nearfit clearance map; world frame; x, y, z and distance in {}; only triangles "
+                 "with a corner within {:.6g}\n",
                  unit, range);
   for (const MappedSurface& mapped : map.surfaces)
     fmt::format_to(text, "comment part {}\n", scene.get(mapped.part).name);

@@ -49,7 +49,8 @@ glm::dvec3 pivotInLead(const Scene& scene, const PoseSubject& subject, const Sho
   }
   if (lead == nullptr || placed.empty()) return glm::dvec3(0.0);
   const RigidTransform leadFromWorld = poses.poseOf(*lead).inverse();
-  if (const std::optional<glm::dvec3> shared = sharedPivot(placed)) return leadFromWorld.applyToPoint(*shared);
+  if (const std::optional<glm::dvec3> shared = sharedPivot(placed))
+    return leadFromWorld.applyToPoint(*shared);
   if (subject.isGroupInHand) return massOfMoving(scene).properties.centre;
   return leadFromWorld.applyToPoint(centreOfMass(placed));
 }

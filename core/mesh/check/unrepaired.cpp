@@ -68,8 +68,8 @@ std::string reasonOf(FindingKind kind) {
   switch (kind) {
     case FindingKind::OpenEdges:
       return fmt::format(
-          "filling has left them, because their rim is no closed loop, has more than {} corners, or is that of a "
-          "single face",
+          "filling has left them, because their rim is no closed loop, has more than {} corners, "
+          "or is that of a single face",
           kMaxHoleCorners);
     case FindingKind::HairlineCracks:
       return "stitching has left them, because it would swallow faces that are as narrow";

@@ -12,7 +12,7 @@ namespace nearfit {
 /// A kind of finding that no repair mends, or that repairs have left.
 struct UnrepairedKind {
   FindingKind kind{};
-  bool areAll = true;  ///< False: others of the kind can still be repaired, such as holes larger than those filled.
+  bool areAll = true;  ///< False: others can still be repaired, such as holes larger than those filled.
   std::string reason;  ///< Why, as the rest of a sentence: "the surface has one side only".
 };
 

@@ -266,13 +266,15 @@ void DesktopCheckTest::whatCannotBeRepairedIsSaidWithTheReason() {
   CheckFixture f;
   const auto* label = f.d.widget<QLabel>("checkUnrepaired");
   // Two cubes that cross, in one mesh without one of its triangles.
-  const TriangleMesh both = joined(boxMesh(glm::dvec3(0.04)), boxMesh(glm::dvec3(0.03), {0.02, 0.021, 0.022}));
+  const TriangleMesh both =
+      joined(boxMesh(glm::dvec3(0.04)), boxMesh(glm::dvec3(0.03), {0.02, 0.021, 0.022}));
   f.d.add({writeOff(f.d.folder.path() / "crossing.off",
                     TriangleMesh({both.vertices().begin(), both.vertices().end()},
                                  {both.triangles().begin(), both.triangles().end() - 1}))});
   QTRY_COMPARE(f.d.session().scene().parts().size(), std::size_t{3});
   f.showPanel("crossing");
-  const QString crossing = QStringLiteral("Self-intersections cannot be repaired: the mesh does not say which");
+  const QString crossing =
+      QStringLiteral("Self-intersections cannot be repaired: the mesh does not say which");
   QTRY_VERIFY2(f.d.text("checkUnrepaired").startsWith(crossing), qPrintable(f.d.text("checkUnrepaired")));
   QTRY_VERIFY(label->isVisible());
   QVERIFY(!f.d.text("checkUnrepaired").contains(QStringLiteral("Open edges")));

@@ -142,9 +142,8 @@ void WindowStyleTest::outlinesStandOutFromTheViewInBothThemes() {
     const QColor shown = ui::outlineColour(light);
     for (const QColor& behind : {ground.lower, ground.upper}) {
       const double found = contrast(shown, behind);
-      QVERIFY2(found >= 3.0, qPrintable(QStringLiteral("%1 before %2: %3")
-                                            .arg(shown.name(), behind.name())
-                                            .arg(found)));
+      QVERIFY2(found >= 3.0,
+               qPrintable(QStringLiteral("%1 before %2: %3").arg(shown.name(), behind.name()).arg(found)));
     }
   }
 }

@@ -258,7 +258,8 @@ QString CheckPanel::noteText() const {
 void CheckPanel::showUnrepaired(const std::vector<UnrepairedKind>& kinds) {
   QStringList lines;
   for (const UnrepairedKind& left : kinds) {
-    const QString text = left.areAll ? tr("%1 cannot be repaired: %2.") : tr("%1 cannot all be repaired: %2.");
+    const QString text =
+        left.areAll ? tr("%1 cannot be repaired: %2.") : tr("%1 cannot all be repaired: %2.");
     lines << text.arg(nameOf(left.kind), QString::fromStdString(left.reason));
   }
   unrepaired_->setText(lines.join('\n'));

@@ -22,10 +22,9 @@ constexpr int kRepairDecimals = 7;
 /// True if findings of the kind are there that loading has not mended and a repair may mend.
 bool canMend(const MeshCheck& check, const std::vector<UnrepairedKind>& unrepaired, FindingKind kind) {
   const auto isLeft = [kind](const UnrepairedKind& left) { return left.kind == kind && left.areAll; };
-  return std::ranges::any_of(check.findings,
-                             [kind](const MeshFinding& finding) {
-                               return finding.kind == kind && !finding.isMended;
-                             }) &&
+  return std::ranges::any_of(
+             check.findings,
+             [kind](const MeshFinding& finding) { return finding.kind == kind && !finding.isMended; }) &&
          std::ranges::none_of(unrepaired, isLeft);
 }
 

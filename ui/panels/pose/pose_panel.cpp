@@ -245,7 +245,8 @@ void PosePanel::showCentre(const std::optional<glm::dvec3>& inWorld) {
       tr("Centre of mass %1, %2, %3").arg(number(inWorld->x), number(inWorld->y), length(inWorld->z));
   if (text == centre_->text()) return;
   centre_->setText(text);
-  centre_->setToolTip(text + QChar('\n') + tr("Centre of mass of all visible parts of the group, in the world"));
+  centre_->setToolTip(text + QChar('\n') +
+                      tr("Centre of mass of all visible parts of the group, in the world"));
 }
 
 void PosePanel::showJoints(const QString& text, const QString& help, bool canRemove, int wholeStart) {

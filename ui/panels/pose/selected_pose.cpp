@@ -79,8 +79,9 @@ void SelectedPose::refresh() {
   const QString heading = headingOf(scene, context_.selection, subject);
   QString help = heading;
   if (subject.parts.size() > 1) {
-    help += QChar('\n') + (subject.isGroupInHand ? tr("The pose shown is that of %1, which leads the group in hand")
-                                                 : tr("The pose shown is that of %1"))
+    help += QChar('\n') + (subject.isGroupInHand
+                               ? tr("The pose shown is that of %1, which leads the group in hand")
+                               : tr("The pose shown is that of %1"))
                               .arg(QString::fromStdString(part->name));
   }
   panel_.showPart(heading, context_.guard.refusalOf(subject), help);

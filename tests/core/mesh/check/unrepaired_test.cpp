@@ -101,7 +101,8 @@ TEST(Unrepaired, ASurfaceOfOneSideCannotBeOriented) {
   EXPECT_EQ(std::ranges::count_if(unrepaired(halfTurnedStrip()), isOfSides), 0) << "orienting is offered";
   const auto left = leftAfter(halfTurnedStrip(), {{RepairKind::Orient}});
   ASSERT_EQ(std::ranges::count_if(left, isOfSides), 1);
-  EXPECT_EQ(std::ranges::find_if(left, isOfSides)->reason, "the surface has one side only, as a Moebius strip has");
+  EXPECT_EQ(std::ranges::find_if(left, isOfSides)->reason,
+            "the surface has one side only, as a Moebius strip has");
 }
 
 }  // namespace
