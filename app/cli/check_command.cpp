@@ -15,6 +15,7 @@
 #include "app/cli/document_options.h"
 #include "app/cli/output.h"
 #include "core/base/error.h"
+#include "core/mesh/check/unrepaired.h"
 #include "core/report/scene_export.h"
 #include "core/scene/document_load.h"
 #include "core/scene/part_check.h"
@@ -48,6 +49,7 @@ constexpr const char* kCheckFooter =
     "Severity: serious: contact may be wrong there; warning: it is slower, or felt from both sides; note: it "
     "is\n"
     "as it should be.\n"
+    "A line for each kind that cannot be repaired, or that the repairs have left, says why.\n"
     "Repairs are made to a copy in this order: weld, clean, stitch, drop, orient, fill. --repair writes it "
     "in\n"
     "the unit of the file, or of --unit (else in metres) for a CAD document; OUT is .stl, .obj or .ply.\n"
@@ -99,7 +101,8 @@ std::string findingText(const MeshFinding& finding) {
   return text + (finding.isMended ? ", mended on loading\n" : "\n");
 }
 
-std::string findingsText(const MeshCheck& check) {
+/// @param made  Repairs before the check.
+std::string findingsText(const MeshCheck& check, const MeshRepairs& made) {
   std::string text = check.findings.empty() ? "  no findings\n" : "";
   for (const MeshFinding& finding : check.findings)
     text += findingText(finding);
@@ -112,6 +115,10 @@ std::string findingsText(const MeshCheck& check) {
     if (total.isCut)
       fmt::format_to(std::back_inserter(text), "  {}: the search ended at a limit; there may be more\n",
                      kind);
+  }
+  for (const UnrepairedKind& left : unrepairedKinds(check, made)) {
+    fmt::format_to(std::back_inserter(text), "  {}: {}cannot be repaired: {}\n", wordOf(left.kind),
+                   left.areAll ? "" : "some ", left.reason);
   }
   return text;
 }
@@ -228,7 +235,7 @@ void reportCheck(const std::string& name, const PartGeometryPtr& geometry, doubl
   json["warnings"] = geometry->report.warnings;
   std::string text =
       fmt::format("{}\n  triangles            {}\n", oneLine(name), geometry->mesh.triangles().size()) +
-      findingsText(before);
+      findingsText(before, geometry->repairs);
   for (const std::string& warning : geometry->report.warnings)
     text += "  on loading           " + oneLine(warning) + "\n";
   if (!repairs.empty()) {
@@ -238,7 +245,7 @@ void reportCheck(const std::string& name, const PartGeometryPtr& geometry, doubl
     const MeshCheck left = checkMesh(after->mesh, checking);
     json["repair"] = repairJson(repair);
     json["checkAfter"] = checkJson(left);
-    text += repairText(repair) + findingsText(left);
+    text += repairText(repair) + findingsText(left, repairs);
     if (!options.out.empty()) text += oneLine(fmt::format("wrote {}", options.out)) + "\n";
   }
   print(options.isJson ? json.dump() + "\n" : text);

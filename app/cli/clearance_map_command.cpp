@@ -32,10 +32,11 @@ struct ClearanceMapOptions {
 constexpr const char* kClearanceMapFooter =
     "The distance at each sample of the part's surface to the nearest other visible part; inside that part, "
     "minus\n"
-    "the depth. MAP.ply (binary) has vertices with x y z in the unit, nx ny nz, red green blue, distance in "
-    "m (nan\n"
-    "beyond the range) and part, only of triangles with a corner within the range. The histogram has the "
-    "columns\n"
+    "the depth. MAP.ply (binary) has vertices with x y z, nx ny nz, red green blue, distance (nan beyond the "
+    "range)\n"
+    "and part, only of triangles with a corner within the range; x y z and distance are in the unit, which "
+    "the header\n"
+    "names. The histogram has the columns\n"
     "from [m], to [m], area [m^2] and share of the surface.\n"
     "On stdout, a line each: range [m], samples, area [m^2], area within the range, min and mean distance "
     "within it\n"
@@ -116,8 +117,9 @@ void addClearanceMapCommand(CLI::App& program) {
   command->add_option("--histogram", options->histogram, "Histogram to write")->type_name("FILE.csv");
   command->add_option("--threshold", options->threshold, "Print the area nearer than this [m]");
   command
-      ->add_option("--unit", options->unit,
-                   "Unit of the map's coordinates: m, cm, mm, um, in, ft, or a number of metres")
+      ->add_option(
+          "--unit", options->unit,
+          "Unit of the map's coordinates and distances: m, cm, mm, um, in, ft, or a number of metres")
       ->capture_default_str();
   command->footer(kClearanceMapFooter);
   command->callback([options] { runClearanceMap(*options); });

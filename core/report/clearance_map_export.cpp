@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/report/clearance_colours.h"
 #include "core/report/mesh_file.h"
+#include "core/scene/mesh_unit.h"
 
 namespace nearfit {
 namespace {
@@ -58,14 +60,16 @@ MapFileSize mapFileSize(const ClearanceMap& map, std::span<const std::vector<boo
 void writeMapHeader(MeshFile& out, const ClearanceMap& map, const Scene& scene, const MapFileSize& size,
                     double metresPerUnit) {
   auto text = std::back_inserter(out.text());
+  const std::string unit = meshUnitText(metresPerUnit);
+  const double range = map.range / metresPerUnit;
   fmt::format_to(text,
                  "ply\nformat binary_little_endian 1.0\n"
-                 "comment Nearfit clearance map; world frame; {} m to the unit; distance in m, nan beyond {} "
-                 "m; only triangles "
-                 "with a corner within it\n",
-                 metresPerUnit, map.range);
+                 "comment Nearfit clearance map; world frame; x, y, z and distance in {}; only triangles "
+                 "with a corner within {:.6g}\n",
+                 unit, range);
   for (const MappedSurface& mapped : map.surfaces)
     fmt::format_to(text, "comment part {}\n", scene.get(mapped.part).name);
+  fmt::format_to(text, "comment distance in {}, nan beyond {:.6g}\n", unit, range);
   fmt::format_to(text,
                  "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
                  "property float nx\nproperty float ny\nproperty float nz\n"
@@ -88,7 +92,7 @@ void writeMapVertices(MeshFile& out, const MappedSurface& mapped, const std::vec
       out.append(static_cast<float>(normal[k]));
     const double distance = mapped.distances[i];
     out.append(std::isnan(distance) ? own : clearanceColour(distance, range));
-    out.append(distance);
+    out.append(distance / metresPerUnit);
     out.append(part);
     out.step();
   }

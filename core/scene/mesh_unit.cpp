@@ -58,6 +58,13 @@ double likelyMeshUnit(double size, double least, double most) {
   return best;
 }
 
+std::string meshUnitText(double metresPerUnit) {
+  for (const auto& [name, metres] : kMeshUnits) {
+    if (metresPerUnit == metres) return std::string(name);
+  }
+  return fmt::format("units of {} m", metresPerUnit);
+}
+
 std::optional<glm::dvec3> extentOfMeshFiles(std::span<const std::filesystem::path> files,
                                             const ProgressCallback& progress) {
   SharedProgress all(progress, static_cast<double>(std::max<std::size_t>(files.size(), 1)));

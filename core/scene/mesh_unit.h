@@ -28,6 +28,9 @@ double likelyMeshUnit(double size, double least, double most);
 /// without it, a part of 53 mm would be taken for one of inches.
 constexpr double kRareUnit = 10.0;
 
+/// Returns a unit in words that follow "in": "mm", "in", "units of 0.5 m".
+std::string meshUnitText(double metresPerUnit);
+
 /// Returns the extent of mesh files, and of CAD documents without units, along each axis, in their units: of the box around all of them, each at
 /// its own coordinates. Leaves out files that cannot be read; std::nullopt if none can. Reads files in
 /// parallel. Blocking: not for the GUI thread. Throws Cancelled.

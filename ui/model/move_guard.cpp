@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "ui/model/hand_state.h"
+#include "ui/model/pose_subject.h"
 #include "ui/widgets/names.h"
 
 namespace nearfit::ui {
@@ -32,12 +33,15 @@ QString MoveGuard::lockOf(const Part& part) const {
   return {};
 }
 
-QString MoveGuard::refusalOf(const Part& part) const {
+QString MoveGuard::refusalOfScene(const Part& part) const {
   const QString lock = lockOf(part);
-  if (!lock.isEmpty()) return lock;
-  if (isReplayed(part.id))
-    return tr("A recording moves %1: close the recording to place it").arg(shortName(part.name));
-  if (!hand_.holds(part.id)) return {};
+  if (!lock.isEmpty() || !isReplayed(part.id)) return lock;
+  return tr("A recording moves %1: close the recording to place it").arg(shortName(part.name));
+}
+
+QString MoveGuard::refusalOf(const Part& part) const {
+  const QString refusal = refusalOfScene(part);
+  if (!refusal.isEmpty() || !hand_.holds(part.id)) return refusal;
   if (hand_.holdsGroup())
     return tr("%1 is in the group in hand: stop feeling it to place it").arg(shortName(part.name));
   if (hand_.isHeldBy(Hand::Device)) return tr("The device holds this part");
@@ -55,6 +59,17 @@ QString MoveGuard::refusalOf(const std::vector<PartId>& parts) const {
   }
   if (!isLed || parts.size() == 1) return {};
   return tr("One of these parts is in hand: stop feeling it, or select only the others");
+}
+
+QString MoveGuard::refusalOf(const PoseSubject& subject) const {
+  if (!subject.isGroupInHand || !hand_.holdsGroup()) return refusalOf(subject.parts);
+  for (const PartId id : subject.parts) {
+    const Part* part = session_.scene().find(id);
+    const QString refusal = part != nullptr ? refusalOfScene(*part) : QString();
+    if (!refusal.isEmpty()) return refusal;
+  }
+  if (hand_.isHeldBy(Hand::Device)) return tr("The device holds this group");
+  return hand_.isHeldBy(Hand::Scripted) ? tr("The scripted hand holds this group") : QString();
 }
 
 }  // namespace nearfit::ui

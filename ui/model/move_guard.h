@@ -9,6 +9,7 @@
 namespace nearfit::ui {
 
 class HandState;
+struct PoseSubject;
 
 /// Decides which parts may be moved now, and says why not. Every way of moving asks it: gizmo, mouse,
 /// numbers, keys, drop and alignment.
@@ -27,6 +28,8 @@ class MoveGuard : public QObject {
   /// The same for parts moved together; empty if there are none. The part of the manual
   /// hand moves only alone.
   QString refusalOf(const std::vector<PartId>& parts) const;
+  /// The same for what numbers and keys move: the group in hand is moved as one by the manual hand.
+  QString refusalOf(const PoseSubject& subject) const;
 
  signals:
   /// Emitted when refusals changed without a change of the session.
@@ -36,6 +39,8 @@ class MoveGuard : public QObject {
   /// True if a recording shows this part.
   bool isReplayed(PartId part) const;
   QString lockOf(const Part& part) const;
+  /// Returns why a part cannot be moved, whoever holds it.
+  QString refusalOfScene(const Part& part) const;
 
   const Session& session_;
   const HandState& hand_;

@@ -115,6 +115,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   const auto* welcome = new WelcomeCard(
       session_, {files_->openDemo, shell_->tour(), files_->addParts, files_->open}, viewport_);
   connect(welcome, &WelcomeCard::recentWanted, files_, &FileCommands::openRecent);
+  notes_->endAtCommandsOf(*this);
   changes_ = session_.onChange(SceneEvents::Stage::View, [this, serial = session_.sceneSerial()]() mutable {
     viewport_->setScene(session_.scene());
     if (std::exchange(serial, session_.sceneSerial()) != session_.sceneSerial()) shell_->endTour();
@@ -287,6 +288,7 @@ void MainWindow::makeToolsAndMenus() {
   listenTo(*placing_, *handControl_, *selectedPose_, *align, *drop, *box, *exporter, *pictures);
   connect(units_, &UnitMenu::unitChanged, measure, &MeasureTool::refresh);
   connect(units_, &UnitMenu::unitChanged, history_, &HistoryPanel::refresh);
+  connect(units_, &UnitMenu::unitChanged, selectedPose_, &SelectedPose::refresh);
   connect(exporter, &Exporter::sceneNeeded, posePanel_, &PosePanel::commit);
   connect(clearanceMap_, &ClearanceMapPanel::exportWanted, exporter, &Exporter::exportMap);
 }

@@ -1,5 +1,6 @@
 #include "ui/shell/title_and_status.h"
 
+#include <QAction>
 #include <QHBoxLayout>
 #include <QHelpEvent>
 #include <QLabel>
@@ -135,7 +136,7 @@ void WindowTitle::showModified() {
 
 NoteBar::NoteBar(Session& session, QWidget* parent) : QStatusBar(parent), session_(session) {
   changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] {
-    if (state_ && *state_ != session_.stateSerial()) clearMessage();
+    if (state_ && *state_ != session_.stateSerial()) endNote();
   });
 }
 
@@ -143,6 +144,16 @@ void NoteBar::note(const QString& text) {
   showMessage(text, kNoteTime);
   state_.reset();
   QTimer::singleShot(0, this, [this] { state_ = session_.stateSerial(); });
+}
+
+void NoteBar::endAtCommandsOf(const QMainWindow& window) {
+  for (const QAction* action : window.findChildren<QAction*>())
+    connect(action, &QAction::triggered, this, &NoteBar::endNote);
+}
+
+void NoteBar::endNote() {
+  // The command may itself have noted something just now.
+  if (state_) clearMessage();
 }
 
 QRect NoteBar::room() const {

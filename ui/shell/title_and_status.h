@@ -41,8 +41,9 @@ class WindowTitle : public QObject {
   Subscription changes_;
 };
 
-/// The status bar. A note stays for a few seconds, and no longer than the state of the session that it is
-/// about. One that is too long is elided, and its tooltip is the whole text.
+/// The status bar. A note belongs to the command that raised it: it stays for a few seconds, and no longer than the state
+/// of the session that it is about or than until the next command. One that is too long is elided, and its tooltip is
+/// the whole text.
 class NoteBar : public QStatusBar {
   Q_OBJECT
 
@@ -52,6 +53,9 @@ class NoteBar : public QStatusBar {
 
   /// Shows a note instead of the one before. What changes until the event loop is back belongs to it.
   void note(const QString& text);
+  /// From now on each action of the window that the user triggers ends the note of the one before, except actions
+  /// added later.
+  void endAtCommandsOf(const QMainWindow& window);
   /// Returns the note as painted; empty if there is none.
   QString shownText() const;
 
@@ -60,6 +64,8 @@ class NoteBar : public QStatusBar {
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  /// Ends a note that is not of this moment.
+  void endNote();
   /// Returns the room left of the permanent widgets.
   QRect room() const;
 

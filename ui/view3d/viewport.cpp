@@ -77,6 +77,7 @@ void Viewport::changeEvent(QEvent* event) {
   QVTKOpenGLNativeWidget::changeEvent(event);
   if (event->type() != QEvent::PaletteChange) return;
   setUpBackground(*renderer_);
+  parts_.followTheme();
   requestRender();
 }
 
@@ -394,9 +395,9 @@ void Viewport::setCut(const std::optional<ViewCut>& cut) {
   requestRender();
 }
 
-std::optional<PickedPoint> Viewport::pointAt(const QPoint& position, bool isColoured) {
+std::optional<PickedPoint> Viewport::pointAt(const QPoint& position, SeenThrough seenThrough) {
   const double scale = devicePixelRatioF();
-  return parts_.pickPoint(position.x() * scale, (height() - 1 - position.y()) * scale, isColoured);
+  return parts_.pickPoint(position.x() * scale, (height() - 1 - position.y()) * scale, seenThrough);
 }
 
 std::vector<PartId> Viewport::partsIn(const QRect& place) const {

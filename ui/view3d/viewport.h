@@ -68,8 +68,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   /// Parts that are cut but cannot be closed, as of the last picture.
   const std::vector<PartId>& openlyCut() const noexcept { return parts_.openlyCut(); }
   /// Returns what is seen at a pixel of the widget; nullopt over the background.
-  /// @param isColoured  Looks through translucent parts that are not coloured by their clearance.
-  std::optional<PickedPoint> pointAt(const QPoint& position, bool isColoured = false);
+  std::optional<PickedPoint> pointAt(const QPoint& position, SeenThrough seenThrough = SeenThrough::AsOthers);
   /// Returns the parts seen somewhere in a rectangle of the widget, in the scene's order.
   std::vector<PartId> partsIn(const QRect& place) const;
   /// Selects as a click at that pixel does.

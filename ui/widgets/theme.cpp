@@ -85,6 +85,7 @@ constexpr std::pair<const char*, const char*> kDarkColours[] = {
     {"#e2711d", "#ff9a52"},
     {"#5a7a00", "#b6d957"},
     {"#445c00", "#b6d957"},
+    {"#6e7e8f", "#98a3ae"},
     {"rgba(255, 255, 255, 235)", "rgba(32, 38, 44, 240)"},
     {"fill=\"#fff\"", "fill=\"#2e3740\""}};
 
@@ -312,6 +313,17 @@ QString inDarkColours(const QString& light) {
 
 QColor themed(const QColor& light) {
   return isThemeDark() ? QColor(inDarkColours(light.name())) : light;
+}
+
+ViewGround viewGround() {
+  if (isThemeDark()) return {QColor::fromRgbF(0.27, 0.31, 0.36), QColor::fromRgbF(0.13, 0.15, 0.18)};
+  return {QColor::fromRgbF(0.72, 0.78, 0.85), QColor::fromRgbF(0.955, 0.968, 0.98)};
+}
+
+QColor outlineColour(const QColor& light) {
+  // Percent of Qt: by what the lightness is divided.
+  constexpr int kDarker = 150;
+  return isThemeDark() ? themed(light) : light.darker(kDarker);
 }
 
 QIcon icon(const QString& name) {

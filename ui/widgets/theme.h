@@ -23,6 +23,7 @@ inline const QColor kJoint(0x5a, 0x7a, 0x00);
 inline const QColor kJointText(0x44, 0x5c, 0x00);  ///< Of joints; kJoint is too light for letters.
 inline const QColor kMutedText(0x5d, 0x68, 0x74);
 inline const QColor kWarning(0xb3, 0x4a, 0x00);
+inline const QColor kOutline(0x6e, 0x7e, 0x8f);  ///< Of parts drawn as outlines; see outlineColour().
 }  // namespace colours
 
 /// Returns the colour of axis 0, 1 or 2; for -1 that of the direction of view.
@@ -46,6 +47,17 @@ QString inDarkColours(const QString& light);
 /// Returns a colour of the light theme as it is in the present theme; for painting and model data, which
 /// style sheets do not reach.
 QColor themed(const QColor& light);
+
+/// Colours of the background of the 3-D view, which passes from one to the other.
+struct ViewGround {
+  QColor lower, upper;
+};
+/// Returns the background in the present theme.
+ViewGround viewGround();
+/// Returns a colour with a meaning as thin lines before that background have it: of a contrast of 3 or more by WCAG 2.1.
+/// In the dark theme kOutline is no lighter than that needs: pictures may have a white ground.
+/// @param light  kOutline, kAccent, kMoving or kOverlap.
+QColor outlineColour(const QColor& light);
 
 /// Sets style, palette, window icon and style sheet of the application. Call once, before there are widgets.
 void applyTheme(QApplication& application);

@@ -102,6 +102,19 @@ TEST_F(CheckCommand, TextSaysWhatTheRepairDid) {
                                 HasSubstr("volume      none to 60 m^3"), HasSubstr("no findings")));
 }
 
+TEST_F(CheckCommand, TextSaysWhyWhatIsLeftIsNotRepaired) {
+  const TriangleMesh crossing =
+      joined(boxMesh({3, 4, 5}), transformed(boxMesh({3, 4, 5}), 1.0, {{1, 0, 0, 0}, {1.0, 1.1, 1.2}}));
+  const std::string file = folder_.write("crossing.obj", objText(crossing)).string();
+  EXPECT_THAT(runCli({"check", "--unit", "m", file, "--orient"}).out,
+              HasSubstr("selfIntersections: cannot be repaired: the mesh does not say which of the faces"));
+  const std::string single = folder_.write("single.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
+  const std::string before = runCli({"check", "--unit", "m", single}).out;
+  EXPECT_THAT(before, testing::Not(HasSubstr("cannot be repaired"))) << "a hole may be filled";
+  EXPECT_THAT(runCli({"check", "--unit", "m", single, "--fill", "10"}).out,
+              HasSubstr("openEdges: cannot be repaired: filling has left them"));
+}
+
 TEST_F(CheckCommand, TheToleranceForCracksIsChosen) {
   const TriangleMesh sheets =
       joined(squareMesh(1.0, 1), transformed(squareMesh(1.0, 1), 1.0, {{1, 0, 0, 0}, {1.01, 0, 0}}));

@@ -71,6 +71,9 @@ TEST_F(ClearanceMapCommand, APartIsNamedAndNearPartsAreAdded) {
   EXPECT_EQ(map.comments[2], "part Cube");
   EXPECT_THAT(map.vertex.at("z"), ::testing::Contains(::testing::DoubleNear(1500.0, 1e-9)))
       << "the lower face of the cube, in millimetres";
+  EXPECT_THAT(map.vertex.at("distance"), ::testing::Contains(::testing::DoubleNear(1000.0, 1e-9)))
+      << "the gap of 1 m, in millimetres too";
+  EXPECT_THAT(map.comments, ::testing::Contains("distance in mm, nan beyond 1500"));
 }
 
 TEST_F(ClearanceMapCommand, WithoutARangeItFindsOne) {

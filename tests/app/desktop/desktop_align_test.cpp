@@ -34,6 +34,7 @@ class DesktopAlignTest : public QObject {
   void saysWhenNothingIsInTheWayOrPartsOverlap();
   void lockedPartsDoNotDrop();
   void selectedPartsGoTogetherAsOneStep();
+  void aSeeThroughPartIsTheTargetWhereOnlyThePartThatMovesIsBehindIt();
 
  private:
   static void click(DesktopDriver& d, const glm::dvec3& point) { ViewPointer(d).click(point); }
@@ -356,6 +357,19 @@ void DesktopAlignTest::selectedPartsGoTogetherAsOneStep() {
   d.choose("undo");
   QCOMPARE(height(d.partId("moving")), 0.0);
   QCOMPARE(height(copy), 0.03);
+}
+
+void DesktopAlignTest::aSeeThroughPartIsTheTargetWhereOnlyThePartThatMovesIsBehindIt() {
+  DesktopDriver d;
+  begin(d);
+  d.session().movePart(d.partId("moving"), {{1, 0, 0, 0}, {0.0, 0.06, -0.035}});
+  const glm::dvec3 onMoving{0.003, 0.05, 0.001};
+  hover(d, onMoving);
+  QTRY_COMPARE(d.text("alignHint"), QStringLiteral("Flat face of moving"));
+  click(d, onMoving);
+  QVERIFY(d.text("alignPrompt").contains(QStringLiteral("Click the target")));
+  hover(d, onMoving);
+  QTRY_COMPARE(d.text("alignHint"), QStringLiteral("Flat face of fixed"));
 }
 
 NEARFIT_QT_SUITE(DesktopAlignTest, runDesktopTest<DesktopAlignTest>)

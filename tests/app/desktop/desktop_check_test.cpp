@@ -78,6 +78,7 @@ class DesktopCheckTest : public QObject {
   void aRepairedPartStaysSoWhenItsUnitChangesOrItsFileIsReloaded();
   void withoutRepairsOrForALockedPartThereIsNothingToPress();
   void aPartThatIsFeltIsNotRepaired();
+  void whatCannotBeRepairedIsSaidWithTheReason();
 };
 
 void DesktopCheckTest::aBadgeMarksThePartWithFindings() {
@@ -258,6 +259,33 @@ void DesktopCheckTest::aPartThatIsFeltIsNotRepaired() {
   QTRY_VERIFY(!repair->isEnabled());
   f.d.choose("stop");
   QTRY_VERIFY(repair->isEnabled());
+}
+
+/// Findings stayed after a repair, and nothing said why none was offered for them.
+void DesktopCheckTest::whatCannotBeRepairedIsSaidWithTheReason() {
+  CheckFixture f;
+  const auto* label = f.d.widget<QLabel>("checkUnrepaired");
+  // Two cubes that cross, in one mesh without one of its triangles.
+  const TriangleMesh both =
+      joined(boxMesh(glm::dvec3(0.04)), boxMesh(glm::dvec3(0.03), {0.02, 0.021, 0.022}));
+  f.d.add({writeOff(f.d.folder.path() / "crossing.off",
+                    TriangleMesh({both.vertices().begin(), both.vertices().end()},
+                                 {both.triangles().begin(), both.triangles().end() - 1}))});
+  QTRY_COMPARE(f.d.session().scene().parts().size(), std::size_t{3});
+  f.showPanel("crossing");
+  const QString crossing =
+      QStringLiteral("Self-intersections cannot be repaired: the mesh does not say which");
+  QTRY_VERIFY2(f.d.text("checkUnrepaired").startsWith(crossing), qPrintable(f.d.text("checkUnrepaired")));
+  QTRY_VERIFY(label->isVisible());
+  QVERIFY(!f.d.text("checkUnrepaired").contains(QStringLiteral("Open edges")));
+  f.d.type<QDoubleSpinBox>("repairFillSize", "60 mm");
+  QTest::mouseClick(f.d.widget<QPushButton>("repairPart"), Qt::LeftButton);
+  QTRY_VERIFY(!f.isOpen("crossing"));
+  QTRY_VERIFY(f.d.text("checkUnrepaired").startsWith(crossing));
+  // For what can be repaired there is no such line.
+  f.d.window().selection().select(f.d.partId("open"));
+  QTRY_COMPARE(f.table->model()->rowCount(), 1);
+  QVERIFY(!label->isVisible());
 }
 
 NEARFIT_QT_SUITE(DesktopCheckTest, runDesktopTest<DesktopCheckTest>)

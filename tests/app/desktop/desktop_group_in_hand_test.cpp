@@ -45,8 +45,10 @@ class DesktopGroupInHandTest : public QObject {
  private slots:
   void aGroupIsTakenInHandByKeyAndByItsHandAndPutDown();
   void itsPartsMoveAsOneAndAreKeptAsOneStep();
-  void itsPartsAreNotPlacedWhileItIsFelt();
+  void itsPartsAreNotPlacedAloneWhileItIsFelt();
   void withoutASelectionTheNumbersAreThoseOfTheGroup();
+  void theNumbersOfTheWholeGroupAreThoseOfOneBody();
+  void typedNumbersMoveTheWholeGroupAboutItsCentreOfMass();
   void anotherThingInHandEndsTheGroup();
   void aLockedPartIsRefusedWithAWord();
   void aGroupOfAllPartsHasNothingToFeel();
@@ -90,18 +92,26 @@ void DesktopGroupInHandTest::itsPartsMoveAsOneAndAreKeptAsOneStep() {
   QVERIFY(d.failures.isEmpty());
 }
 
-void DesktopGroupInHandTest::itsPartsAreNotPlacedWhileItIsFelt() {
+void DesktopGroupInHandTest::itsPartsAreNotPlacedAloneWhileItIsFelt() {
   PairInHand d;
   d.session().setMovingGroup(d.group);
   d.startWith(ui::Hand::Manual);
   QTRY_VERIFY(d.isFeltAtX(0.0));
-  for (const PartId id : {d.lead, d.other}) {
-    d.window().selection().select(id);
-    QVERIFY(!d.widget<QDoubleSpinBox>("positionX")->isEnabled());
-  }
+  // Numbers of any of them are those of the group: the hand takes both along.
+  d.window().selection().select(d.other);
+  QCOMPARE(d.text("poseHeading"), QStringLiteral("Pair"));
+  QCOMPARE(d.widget<QDoubleSpinBox>("positionX")->value(), 0.0);
+  d.type<QDoubleSpinBox>("positionX", "-4");
+  QTRY_VERIFY(d.isFeltAtX(-0.004));
+  QTRY_VERIFY(isNear(d.shownX(d.other), 0.026, 1e-9));
+  QCOMPARE(d.x(d.other), 0.03);
   d.choose("stop");
   d.window().selection().select(d.other);
+  QTRY_VERIFY(d.text("poseHeading") != QStringLiteral("Pair"));
   QVERIFY(d.widget<QDoubleSpinBox>("positionX")->isEnabled());
+  d.type<QDoubleSpinBox>("positionX", "40");
+  QVERIFY(isNear(d.x(d.other), 0.04, 1e-9));
+  QVERIFY(isNear(d.x(d.lead), -0.004, 1e-9));
 }
 
 void DesktopGroupInHandTest::withoutASelectionTheNumbersAreThoseOfTheGroup() {
@@ -114,9 +124,52 @@ void DesktopGroupInHandTest::withoutASelectionTheNumbersAreThoseOfTheGroup() {
   QCOMPARE(d.text("poseHeading"), QStringLiteral("Pair"));
   d.application.servo().moveHand({{1, 0, 0, 0}, {0.004, 0.0, 0.001}});
   QTRY_VERIFY(isNear(d.widget<QDoubleSpinBox>("positionX")->value(), 4.0, 1e-3));
-  QVERIFY(!d.widget<QDoubleSpinBox>("positionX")->isEnabled());
+  QVERIFY(d.widget<QDoubleSpinBox>("positionX")->isEnabled());
+  // Between the two cubes.
+  QTRY_COMPARE(d.text("massCentre"), QStringLiteral("Centre of mass 19.000, 0.000, 36.000 mm"));
   d.choose("stop");
   QTRY_COMPARE(d.text("poseHeading"), QStringLiteral("No part selected"));
+  QVERIFY(!d.widget<QLabel>("massCentre")->isVisible());
+}
+
+/// They were those of the part selected last, under the name of the group.
+void DesktopGroupInHandTest::theNumbersOfTheWholeGroupAreThoseOfOneBody() {
+  PairInHand d;
+  d.session().setDensity({d.other}, 3000.0);
+  d.session().setMovingGroup(d.group);
+  d.window().selection().set({d.lead, d.other}, {d.group});
+  QCOMPARE(d.text("poseHeading"), QStringLiteral("Pair"));
+  QVERIFY(d.widget<QLabel>("poseHeading")->toolTip().contains(QStringLiteral("moving, which leads")));
+  // As place --group gives it: of the part that leads.
+  QCOMPARE(d.widget<QDoubleSpinBox>("positionX")->value(), 0.0);
+  // Two cubes of 8 cm^3, of water and of three times its density.
+  QCOMPARE(d.text("mass"), QStringLiteral("32.0 g"));
+  QCOMPARE(d.text("massCentre"), QStringLiteral("Centre of mass 22.500, 0.000, 35.000 mm"));
+  // What is hidden is not felt.
+  d.session().setVisible({d.lead}, false);
+  QCOMPARE(d.text("mass"), QStringLiteral("24.0 g"));
+  QCOMPARE(d.text("massCentre"), QStringLiteral("Centre of mass 30.000, 0.000, 35.000 mm"));
+  d.session().setVisible({d.lead}, true);
+  d.window().selection().select(d.other);
+  QCOMPARE(d.widget<QDoubleSpinBox>("positionX")->value(), 30.0);
+  QVERIFY(!d.widget<QLabel>("massCentre")->isVisible());
+}
+
+void DesktopGroupInHandTest::typedNumbersMoveTheWholeGroupAboutItsCentreOfMass() {
+  PairInHand d;
+  d.session().setMovingGroup(d.group);
+  d.window().selection().set({d.lead, d.other}, {d.group});
+  const std::size_t before = d.session().historyIndex();
+  d.type<QDoubleSpinBox>("positionX", "5");
+  QVERIFY(isNear(d.x(d.lead), 0.005, 1e-12) && isNear(d.x(d.other), 0.035, 1e-12));
+  QCOMPARE(d.session().historyIndex(), before + 1);
+  // Half a turn about the middle of the two exchanges them.
+  d.type<QDoubleSpinBox>("rotationZ", "180");
+  QVERIFY(isNear(d.x(d.lead), 0.035, 1e-9) && isNear(d.x(d.other), 0.005, 1e-9));
+  d.session().undo();
+  d.session().undo();
+  QVERIFY(d.x(d.lead) == 0.0 && d.x(d.other) == 0.03);
+  QVERIFY(d.failures.isEmpty());
 }
 
 void DesktopGroupInHandTest::anotherThingInHandEndsTheGroup() {

@@ -116,6 +116,7 @@ class DesktopJointsTest : public QObject {
   void jointsThatContradictEachOtherAreNotMade();
   void aPartInHandIsKeptWhileItIsFelt();
   void thePanelSaysThatJointsContradictEachOther();
+  void whatWasSaidOfAJointEndsWhenTheNextToolStarts();
 };
 
 void DesktopJointsTest::insertsABoltInItsBoreByTwoClicksAsOneStepOfUndo() {
@@ -464,6 +465,17 @@ void DesktopJointsTest::thePanelSaysThatJointsContradictEachOther() {
   d.session().movePart(d.partId("fixed"), before);
   QTRY_VERIFY2(!d.text("noticeText").contains(QStringLiteral("contradict")),
                qPrintable(d.text("noticeText")));
+}
+
+/// It stayed while the next tool ran, which changes nothing of the scene until it is done.
+void DesktopJointsTest::whatWasSaidOfAJointEndsWhenTheNextToolStarts() {
+  BoltBench b;
+  b.keepOnAxis();
+  QTest::qWait(50);
+  QVERIFY2(b.note().contains(QStringLiteral("Kept on axis of plate")), qPrintable(b.note()));
+  pressShortcut(b.d, Qt::Key_M);
+  QVERIFY(b.d.action("measure")->isChecked());
+  QCOMPARE(b.note(), QString());
 }
 
 NEARFIT_QT_SUITE(DesktopJointsTest, runDesktopTest<DesktopJointsTest>)

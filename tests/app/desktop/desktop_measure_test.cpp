@@ -25,6 +25,7 @@ class DesktopMeasureTest : public QObject {
   void theMeasureLeavesWithItsPart();
   void dragsStillOrbitAndEscapeLeaves();
   void oneToolAtATimeTakesClicks();
+  void whatIsSeenThroughAnotherPartIsMeasured();
 
  private:
   /// The two cubes from the front, and the tool on.
@@ -223,6 +224,23 @@ void DesktopMeasureTest::oneToolAtATimeTakesClicks() {
   QVERIFY(!d.action("align")->isChecked());
   pressInView(d, Qt::Key_Escape);
   QVERIFY(!d.action("measure")->isChecked());
+}
+
+/// The see-through part in front was picked, though the solid one behind it is what one looks at.
+void DesktopMeasureTest::whatIsSeenThroughAnotherPartIsMeasured() {
+  DesktopDriver d;
+  begin(d);
+  // Behind the fixed cube, which the part in hand makes see-through.
+  d.session().movePart(d.partId("moving"), {{1, 0, 0, 0}, {0.0, 0.06, -0.035}});
+  ViewPointer pointer(d);
+  const glm::dvec3 onMoving{0.003, 0.05, 0.001}, besideIt{0.016, -0.02, 0.001};
+  pointer.hover(onMoving);
+  QTRY_COMPARE(d.text("measureHint"), QStringLiteral("Flat face of moving"));
+  pointer.hover(besideIt);
+  QTRY_COMPARE(d.text("measureHint"), QStringLiteral("Flat face of fixed"));
+  d.action("seeThrough")->setChecked(false);
+  pointer.hover(onMoving);
+  QTRY_COMPARE(d.text("measureHint"), QStringLiteral("Flat face of fixed"));
 }
 
 NEARFIT_QT_SUITE(DesktopMeasureTest, runDesktopTest<DesktopMeasureTest>)

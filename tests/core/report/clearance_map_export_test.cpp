@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,6 +35,14 @@ class ClearanceMapExport : public ::testing::Test {
     upper_ = scene_.add(upper);
     scene_.setMovingPart(upper_);
     map_ = ClearanceMapper().map(clearanceMapRequest(scene_, upper_, 0.005, true));
+  }
+
+  /// The least distance in a file, in its unit.
+  static double leastIn(const test::PlyValues& read) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const double distance : read.vertex.at("distance"))
+      if (!std::isnan(distance)) least = std::min(least, distance);
+    return least;
   }
 
   test::TemporaryFolder folder_;
@@ -77,7 +88,7 @@ TEST_F(ClearanceMapExport, ValuesAreReadBackByAnotherParser) {
     const glm::dvec3 p =
         1e-3 * glm::dvec3(read.vertex.at("x")[i], read.vertex.at("y")[i], read.vertex.at("z")[i]);
     const glm::dvec3 q = turn_.inverse().applyToPoint(p);
-    const double distance = read.vertex.at("distance")[i], part = read.vertex.at("part")[i];
+    const double distance = 1e-3 * read.vertex.at("distance")[i], part = read.vertex.at("part")[i];
     // The least distance of upright blocks, by hand: over the upper's sides, straight down; over the lower's top, to the
     // upper's face or its rim.
     const double x = std::max(0.0, std::abs(q.x) - 0.02), y = std::max(0.0, std::abs(q.y) - 0.02);
@@ -93,8 +104,9 @@ TEST_F(ClearanceMapExport, ValuesAreReadBackByAnotherParser) {
     ++near;
     EXPECT_NEAR(distance, expected, 1e-12);
     const Colour colour = clearanceColour(distance, map_.range);
-    EXPECT_EQ(read.vertex.at("red")[i], std::round(255.0F * colour.r));
-    EXPECT_EQ(read.vertex.at("blue")[i], std::round(255.0F * colour.b));
+    // To a step: the distance was rounded by its unit.
+    EXPECT_NEAR(read.vertex.at("red")[i], std::round(255.0F * colour.r), 1.0);
+    EXPECT_NEAR(read.vertex.at("blue")[i], std::round(255.0F * colour.b), 1.0);
     const double length =
         std::hypot(read.vertex.at("nx")[i], read.vertex.at("ny")[i], read.vertex.at("nz")[i]);
     EXPECT_NEAR(length, 1.0, 1e-6);
@@ -112,6 +124,18 @@ TEST_F(ClearanceMapExport, ValuesAreReadBackByAnotherParser) {
       ASSERT_LT(corner, read.vertex.at("x").size());
     const auto isBeyond = [&](std::size_t corner) { return std::isnan(read.vertex.at("distance")[corner]); };
     EXPECT_FALSE(std::ranges::all_of(corners, isBeyond)) << "beyond the range";
+  }
+}
+
+TEST_F(ClearanceMapExport, DistancesAreInTheUnitOfTheCoordinatesAndTheHeaderNamesIt) {
+  const std::pair<double, const char*> units[] = {
+      {1e-3, "mm, nan beyond 5"}, {1.0, "m, nan beyond 0.005"}, {0.5, "units of 0.5 m, nan beyond 0.01"}};
+  for (const auto& [metres, words] : units) {
+    exportClearanceMap(map_, scene_, metres, file_);
+    const test::PlyValues read = test::readPlyValues(file_);
+    EXPECT_NEAR(metres * leastIn(read), 0.002, 1e-12) << words;
+    EXPECT_THAT(read.comments, testing::Contains(std::string("distance in ") + words));
+    EXPECT_THAT(read.comments.front(), testing::HasSubstr("x, y, z and distance in "));
   }
 }
 
@@ -137,10 +161,8 @@ TEST_F(ClearanceMapExport, TheExportOfScenesWritesMapAndHistogramWhereTheMovingP
   what.map.range = 0.005;
   exportScene(scene_, now, what, file_);
   const test::PlyValues read = test::readPlyValues(file_);
-  double least = 1.0;
-  for (const double distance : read.vertex.at("distance"))
-    if (!std::isnan(distance)) least = std::min(least, distance);
-  EXPECT_NEAR(least, 0.003, 1e-12);
+  const double least = leastIn(read);
+  EXPECT_NEAR(1e-3 * least, 0.003, 1e-12);
   EXPECT_EQ(extensionOf(ExportKind::ClearanceMapPly), "ply");
   EXPECT_EQ(exportKindOf("x.ply"), ExportKind::MeshPly) << "a suffix alone means a mesh";
 

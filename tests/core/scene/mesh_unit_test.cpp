@@ -95,6 +95,12 @@ TEST_F(ExtentOfMeshFiles, FilesThatCannotBeReadAreLeftOut) {
   EXPECT_FALSE(extentOfMeshFiles({}));
 }
 
+TEST(MeshUnit, UnitsAreNamedAsTheyAreGiven) {
+  for (const char* name : {"m", "cm", "mm", "um", "in", "ft"})
+    EXPECT_EQ(meshUnitText(parseMeshUnit(name, "--unit")), name);
+  EXPECT_EQ(meshUnitText(0.5), "units of 0.5 m");
+}
+
 TEST_F(ExtentOfMeshFiles, MeasuringCanBeCancelled) {
   const std::vector files{box("a.obj", {1, 2, 3}, {0, 0, 0})};
   EXPECT_THROW((void)extentOfMeshFiles(files, [](double) { return false; }), Cancelled);

@@ -1,8 +1,10 @@
 #include "ui/shell/title_and_status.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QHelpEvent>
 #include <QLabel>
+#include <QMainWindow>
 #include <QStatusBar>
 #include <QToolTip>
 #include <QtTest>
@@ -23,6 +25,7 @@ class TitleAndStatusTest : public QObject {
   void aMinDistanceThatIsOnlyABoundIsSaidToBeOne();
   void numbersStayWhereTheyAre();
   void aNoteEndsWithTheStateThatItIsAbout();
+  void aNoteEndsWhenTheNextCommandStarts();
   void aNoteThatIsTooLongIsElidedAndItsToolTipIsAll();
 };
 
@@ -84,6 +87,28 @@ void TitleAndStatusTest::aNoteEndsWithTheStateThatItIsAbout() {
   QCOMPARE(bar.currentMessage(), QStringLiteral("Saved test.nearfit"));
   session.reset();
   QCOMPARE(bar.currentMessage(), QString());
+}
+
+/// "bolt: Kept to point of plate" stayed while the next tool ran: a tool changes nothing until it is done.
+void TitleAndStatusTest::aNoteEndsWhenTheNextCommandStarts() {
+  Session session;
+  QMainWindow window;
+  ui::NoteBar bar(session, &window);
+  QAction keep(&window), measure(&window);
+  // A command notes before the bar hears of it.
+  connect(&keep, &QAction::triggered, &bar, [&bar] { bar.note(QStringLiteral("Kept to point of plate")); });
+  bar.endAtCommandsOf(window);
+  keep.trigger();
+  QCOMPARE(bar.currentMessage(), QStringLiteral("Kept to point of plate"));
+  QTest::qWait(20);
+  QCOMPARE(bar.currentMessage(), QStringLiteral("Kept to point of plate"));
+  measure.trigger();
+  QCOMPARE(bar.currentMessage(), QString());
+  // A second time it is a note again.
+  keep.trigger();
+  QTest::qWait(20);
+  keep.trigger();
+  QCOMPARE(bar.currentMessage(), QStringLiteral("Kept to point of plate"));
 }
 
 void TitleAndStatusTest::aNoteThatIsTooLongIsElidedAndItsToolTipIsAll() {

@@ -11,29 +11,16 @@
 #include <QToolTip>
 #include <QtTest>
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 
+#include "tests/support/qt/contrast.h"
 #include "tests/support/qt/qt_suite.h"
 #include "ui/widgets/theme.h"
 
 using namespace nearfit;
+using test::contrast;
 
 namespace {
-
-/// Relative luminance, as WCAG 2.1 defines it.
-double luminance(const QColor& colour) {
-  const auto linear = [](double part) {
-    return part <= 0.03928 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4);
-  };
-  return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
-}
-
-/// Contrast ratio of two colours by WCAG 2.1, 1 to 21.
-double contrast(const QColor& a, const QColor& b) {
-  const double x = luminance(a), y = luminance(b);
-  return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
-}
 
 /// Contrast of the pixel that stands out most from a ground.
 double bestContrast(const QImage& picture, const QColor& ground) {
@@ -73,6 +60,8 @@ class WindowStyleTest : public QObject {
   void tooltipsAreReadableInBothThemes_data();
   void tooltipsAreReadableInBothThemes();
   void textOfThePastAndOfJointsIsReadable();
+  void outlinesStandOutFromTheViewInBothThemes_data();
+  void outlinesStandOutFromTheViewInBothThemes();
   void disabledIconsAreFaintInBothThemes_data();
   void disabledIconsAreFaintInBothThemes();
 
@@ -137,6 +126,26 @@ void WindowStyleTest::textOfThePastAndOfJointsIsReadable() {
                    palette.color(QPalette::Window)) >= 4.5);
   QVERIFY(contrast(ui::themed(ui::colours::kJointText), palette.color(QPalette::Window)) >= 4.5);
   ui::setColourScheme(ui::ColourScheme::Light);
+}
+
+void WindowStyleTest::outlinesStandOutFromTheViewInBothThemes_data() {
+  boxesToTickStandOutInBothThemes_data();
+}
+
+// In the dark theme they were #1a222b, half transparent, before #454f5c.
+void WindowStyleTest::outlinesStandOutFromTheViewInBothThemes() {
+  QFETCH(int, scheme);
+  ui::setColourScheme(static_cast<ui::ColourScheme>(scheme));
+  const ui::ViewGround ground = ui::viewGround();
+  for (const QColor& light :
+       {ui::colours::kOutline, ui::colours::kAccent, ui::colours::kMoving, ui::colours::kOverlap}) {
+    const QColor shown = ui::outlineColour(light);
+    for (const QColor& behind : {ground.lower, ground.upper}) {
+      const double found = contrast(shown, behind);
+      QVERIFY2(found >= 3.0,
+               qPrintable(QStringLiteral("%1 before %2: %3").arg(shown.name(), behind.name()).arg(found)));
+    }
+  }
 }
 
 void WindowStyleTest::disabledIconsAreFaintInBothThemes_data() {

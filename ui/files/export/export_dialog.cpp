@@ -183,9 +183,9 @@ QString ExportDialog::mapSummary() const {
   const QString unit = QLatin1String(kUnits[static_cast<std::size_t>(unit_->currentIndex())].sign);
   const QString others =
       Preferences::hasNearClearances() ? tr(" Near parts too, with their distance to it.") : QString();
-  return tr("The surface of %1 within %3 of other visible parts, in the world frame, in %2, with colours "
-            "and, at "
-            "each vertex, the distance [m] to the nearest one. The rest of the surface is left out.")
+  return tr("The surface of %1 within %3 of other visible parts, in the world frame, with colours and, "
+            "at each vertex, the distance to the nearest one; coordinates and distances in %2. The rest of "
+            "the surface is left out.")
              .arg(name, unit, within) +
          others;
 }

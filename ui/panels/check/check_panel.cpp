@@ -133,6 +133,7 @@ CheckPanel::CheckPanel(const Context& context, QWidget* parent)
       table_(new FindingsTable(this)),
       title_(new QLabel(this)),
       note_(new QLabel(this)),
+      unrepaired_(new QLabel(this)),
       result_(new QLabel(this)),
       fields_(new RepairFields(this)),
       repair_(new QPushButton(tr("Re&pair"), this)) {
@@ -174,8 +175,9 @@ void CheckPanel::setUpTable() {
 void CheckPanel::setUpLayout() {
   title_->setObjectName(QStringLiteral("checkTitle"));
   note_->setObjectName(QStringLiteral("checkNote"));
+  unrepaired_->setObjectName(QStringLiteral("checkUnrepaired"));
   result_->setObjectName(QStringLiteral("repairResult"));
-  for (QLabel* label : {title_, note_, result_}) {
+  for (QLabel* label : {title_, note_, unrepaired_, result_}) {
     label->setWordWrap(true);
     label->setTextFormat(Qt::PlainText);
   }
@@ -183,6 +185,7 @@ void CheckPanel::setUpLayout() {
   note_->setMinimumHeight(note_->fontMetrics().lineSpacing());
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   result_->hide();
+  unrepaired_->hide();
   repair_->setObjectName(QStringLiteral("repairPart"));
   repair_->setToolTip(
       tr("Repair the part's mesh in this scene, as one step to undo; its file stays as it is"));
@@ -190,6 +193,7 @@ void CheckPanel::setUpLayout() {
   findings->addWidget(title_);
   findings->addWidget(table_, 1);
   findings->addWidget(note_);
+  findings->addWidget(unrepaired_);
   findings->addWidget(result_);
   auto* repairs = new QVBoxLayout;
   repairs->addWidget(fields_, 1);
@@ -218,7 +222,10 @@ void CheckPanel::follow() {
   if (isNewPart && isVisible() && geometry_) context_.checks.prefer(geometry_);
   if (isNew) {
     model_->show(check_);
-    if (check_) fields_->suggest(*check_, geometry_->mesh.bounds().diagonal());
+    const std::vector<UnrepairedKind> unrepaired =
+        check_ ? unrepairedKinds(*check_, geometry_->repairs) : std::vector<UnrepairedKind>{};
+    if (check_) fields_->suggest(*check_, unrepaired, geometry_->mesh.bounds().diagonal());
+    showUnrepaired(unrepaired);
     showPlace(false);
   }
   if (geometry_ != repaired_.lock()) result_->hide();
@@ -246,6 +253,17 @@ QString CheckPanel::noteText() const {
   if (check_->findings.empty()) return tr("Nothing is wrong with its mesh.");
   if (!table_->selectionModel()->hasSelection()) return tr("Select a row to see where it is.");
   return {};
+}
+
+void CheckPanel::showUnrepaired(const std::vector<UnrepairedKind>& kinds) {
+  QStringList lines;
+  for (const UnrepairedKind& left : kinds) {
+    const QString text =
+        left.areAll ? tr("%1 cannot be repaired: %2.") : tr("%1 cannot all be repaired: %2.");
+    lines << text.arg(nameOf(left.kind), QString::fromStdString(left.reason));
+  }
+  unrepaired_->setText(lines.join('\n'));
+  unrepaired_->setVisible(!lines.isEmpty());
 }
 
 void CheckPanel::showState() {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/mesh/check/unrepaired.h"
 #include "core/scene/part_geometry.h"
 #include "core/session/session.h"
 #include "ui/view3d/finding_marks.h"
@@ -62,6 +63,8 @@ class CheckPanel : public QWidget {
   /// Follows selection, scene and checks.
   void follow();
   QString noteText() const;
+  /// Says why nothing is offered for findings that cannot be repaired.
+  void showUnrepaired(const std::vector<UnrepairedKind>& kinds);
   /// Shows the chosen finding in the view; `isNew` moves the camera there.
   void showPlace(bool isNew);
   void placeMarks();
@@ -74,7 +77,7 @@ class CheckPanel : public QWidget {
   FindingsModel* model_;
   QSortFilterProxyModel* sorted_;
   QTableView* table_;
-  QLabel *title_, *note_, *result_;
+  QLabel *title_, *note_, *unrepaired_, *result_;
   RepairFields* fields_;
   QPushButton* repair_;
   PartGeometryPtr geometry_;                    ///< Geometry of the part shown.

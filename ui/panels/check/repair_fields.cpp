@@ -19,10 +19,13 @@ constexpr double kMaxHoleShare = 0.85;
 constexpr double kRoom = 1.05;
 constexpr int kRepairDecimals = 7;
 
-bool hasAny(const MeshCheck& check, FindingKind kind) {
-  return std::ranges::any_of(check.findings, [kind](const MeshFinding& finding) {
-    return finding.kind == kind && !finding.isMended;
-  });
+/// True if findings of the kind are there that loading has not mended and a repair may mend.
+bool canMend(const MeshCheck& check, const std::vector<UnrepairedKind>& unrepaired, FindingKind kind) {
+  const auto isLeft = [kind](const UnrepairedKind& left) { return left.kind == kind && left.areAll; };
+  return std::ranges::any_of(
+             check.findings,
+             [kind](const MeshFinding& finding) { return finding.kind == kind && !finding.isMended; }) &&
+         std::ranges::none_of(unrepaired, isLeft);
 }
 
 /// Two figures are enough for what is a choice anyway.
@@ -95,16 +98,18 @@ void RepairFields::offer(const Row& row, bool isOn, double size) {
   row.size->showQuantity(rounded(size));
 }
 
-void RepairFields::suggest(const MeshCheck& check, double diagonal) {
+void RepairFields::suggest(const MeshCheck& check, const std::vector<UnrepairedKind>& unrepaired,
+                           double diagonal) {
+  const auto canMendAny = [&](std::initializer_list<FindingKind> kinds) {
+    return std::ranges::any_of(kinds, [&](FindingKind kind) { return canMend(check, unrepaired, kind); });
+  };
   offer(weld_, false, kWeldShare * diagonal);
-  offer(stitch_, hasAny(check, FindingKind::HairlineCracks), check.crackTolerance);
-  offer(clean_, hasAny(check, FindingKind::DegenerateFaces) || hasAny(check, FindingKind::DuplicateFaces),
-        0.0);
+  offer(stitch_, canMendAny({FindingKind::HairlineCracks}), check.crackTolerance);
+  offer(clean_, canMendAny({FindingKind::DegenerateFaces, FindingKind::DuplicateFaces}), 0.0);
   offer(drop_, false, kDropShare * diagonal);
-  offer(orient_, hasAny(check, FindingKind::InvertedShells) || hasAny(check, FindingKind::InconsistentEdges),
-        0.0);
+  offer(orient_, canMendAny({FindingKind::InvertedShells, FindingKind::InconsistentEdges}), 0.0);
   // Stitching comes first: what it closes is no hole.
-  offer(fill_, hasAny(check, FindingKind::OpenEdges) && !hasAny(check, FindingKind::HairlineCracks),
+  offer(fill_, canMendAny({FindingKind::OpenEdges}) && !canMendAny({FindingKind::HairlineCracks}),
         fillSizeFor(check, diagonal));
 }
 

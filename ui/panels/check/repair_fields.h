@@ -2,9 +2,11 @@
 
 #include <QWidget>
 #include <optional>
+#include <vector>
 
 #include "core/mesh/check/mesh_check.h"
 #include "core/mesh/check/mesh_repair.h"
+#include "core/mesh/check/unrepaired.h"
 
 class QCheckBox;
 class QGridLayout;
@@ -21,8 +23,9 @@ class RepairFields : public QWidget {
   explicit RepairFields(QWidget* parent = nullptr);
 
   /// Offers what mends these findings, with sizes that suit a part.
-  /// @param diagonal  Of the part [m].
-  void suggest(const MeshCheck& check, double diagonal);
+  /// @param unrepaired  Kinds for which nothing is offered.
+  /// @param diagonal    Of the part [m].
+  void suggest(const MeshCheck& check, const std::vector<UnrepairedKind>& unrepaired, double diagonal);
   bool isAnyChosen() const;
   /// Returns the chosen repairs, in the order in which they are made. What is being typed counts.
   MeshRepairs repairs();

@@ -127,7 +127,8 @@ void ClearancePanel::setUpTable() {
   table_->setModel(sorted_);
   setUpRowTable(*table_);
   table_->sortByColumn(ClearanceModel::Distance, Qt::AscendingOrder);
-  table_->setMinimumSize(forFont(*table_, 360), forFont(*table_, 90));
+  // A small window has room for the header and a row and a half, which show that there are more.
+  table_->setMinimumSize(forFont(*table_, 360), forFont(*table_, 60));
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(ClearanceModel::Other, QHeaderView::Stretch);
   table_->horizontalHeader()->setHighlightSections(false);

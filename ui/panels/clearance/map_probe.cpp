@@ -57,7 +57,7 @@ void MapProbe::probe() {
 }
 
 QString MapProbe::textAt(const QPoint& position) const {
-  const std::optional<PickedPoint> seen = view_.pointAt(position, true);
+  const std::optional<PickedPoint> seen = view_.pointAt(position, SeenThrough::Never);
   const MappedSurface* mapped = seen && seen->cut == nullptr ? map_->map.find(seen->part) : nullptr;
   const Part* part = mapped != nullptr ? session_.scene().find(seen->part) : nullptr;
   if (part == nullptr) return {};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -12,6 +13,7 @@ namespace {
 const QColor kTick(0x1f, 0x73, 0xd0), kLate(0xe2, 0x71, 0x1d);
 
 constexpr std::size_t kClearancePane = 2;
+constexpr QSize kUsualSize(320, 180);  ///< [pixels]
 
 /// Returns a range from zero to above the greatest value, with room for the title; never empty.
 QCPRange valueRange(double greatest) {
@@ -25,7 +27,8 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent) {
   setObjectName(QStringLiteral("plotView"));
   setAccessibleName(tr("Force, torque, clearance and times of the servo over time"));
   setFocusPolicy(Qt::StrongFocus);
-  setMinimumSize(320, 180);
+  // As low as the plots can be read, in a small window.
+  setMinimumSize(forFont(*this, kUsualSize.width()), forFont(*this, 140));
   setAutoAddPlottableToLegend(false);
   // With many short lines antialiasing is invisible, and costs several times as much.
   setNotAntialiasedElements(QCP::aePlottables);
@@ -47,6 +50,11 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent) {
   connect(&timer_, &QTimer::timeout, this, [this] {
     if (isDue_) drawPanes();
   });
+}
+
+QSize PlotView::sizeHint() const {
+  return QCustomPlot::sizeHint().expandedTo(
+      {forFont(*this, kUsualSize.width()), forFont(*this, kUsualSize.height())});
 }
 
 void PlotView::addPane(int row, int column, const QString& label,

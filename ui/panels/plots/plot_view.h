@@ -36,6 +36,9 @@ class PlotView : public QCustomPlot {
   /// Returns the number of pictures drawn so far, for tests.
   int redrawCount() const noexcept { return redraws_; }
 
+  /// The size of a panel that has room.
+  QSize sizeHint() const override;
+
  signals:
   /// Emitted with false when the user zoomed or dragged, with true when follow() was called.
   void followingChanged(bool isFollowing);

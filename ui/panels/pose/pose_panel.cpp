@@ -46,9 +46,10 @@ PosePanel::PosePanel(QWidget* parent) : QWidget(parent), heading_(new ElidedLabe
   setUpJoints(*layout);
   layout->setColumnStretch(1, 3);
   layout->setColumnStretch(3, 2);
-  layout->setRowStretch(8, 1);
+  layout->setRowStretch(9, 1);
   showPart({});
   showMass({});
+  showCentre({});
   showJoints({});
 }
 
@@ -107,6 +108,9 @@ void PosePanel::setUpMass(QGridLayout& layout) {
   row->addWidget(density_, 1);
   row->addWidget(mass_);
   layout.addLayout(row, 6, 0, 1, 4);
+  centre_ = new ElidedLabel(this);
+  centre_->setObjectName(QStringLiteral("massCentre"));
+  layout.addWidget(centre_, 7, 0, 1, 4);
   connect(density_, &NumberField::quantityEdited, this, &PosePanel::densityEdited);
 }
 
@@ -125,7 +129,7 @@ void PosePanel::setUpJoints(QGridLayout& layout) {
   row->setContentsMargins(0, 0, 0, 0);
   row->addWidget(joints_, 1);
   row->addWidget(removeJoints_);
-  layout.addWidget(jointRow_, 7, 0, 1, 4);
+  layout.addWidget(jointRow_, 8, 0, 1, 4);
   connect(removeJoints_, &QToolButton::clicked, this, &PosePanel::jointRemovalRequested);
 }
 
@@ -209,7 +213,8 @@ void PosePanel::showPose(const RigidTransform& worldFromPart, const RigidTransfo
   refresh();
 }
 
-void PosePanel::showMass(const std::vector<const Part*>& parts, bool isLocked) {
+void PosePanel::showMass(const std::vector<const Part*>& parts, bool isLocked,
+                         const std::optional<double>& total) {
   density_->setEnabled(!parts.empty() && !isLocked);
   showDensity(parts);
   double mass = 0.0;
@@ -220,11 +225,28 @@ void PosePanel::showMass(const std::vector<const Part*>& parts, bool isLocked) {
     isOfBox = isOfBox || part->geometry->mass.basis == MassBasis::OrientedBox;
     mass += massOf(*part);
   }
-  mass_->setText(hasGeometry ? formatMass(mass) : QString());
+  mass_->setText(hasGeometry ? formatMass(total.value_or(mass)) : QString());
   const bool isOne = parts.size() == 1;
   mass_->setToolTip(!isOfBox ? (isOne ? tr("Mass") : tr("Total mass of these parts"))
                     : isOne  ? tr("Mass of its bounding box, because the mesh encloses no volume")
                              : tr("Total mass; for a mesh that encloses no volume, of its bounding box"));
+}
+
+void PosePanel::showCentre(const std::optional<glm::dvec3>& inWorld) {
+  centre_->setVisible(inWorld.has_value());
+  if (!inWorld) return;
+  constexpr int kDecimals = 3;
+  const LengthUnit unit = shownLengthUnit();
+  const auto length = [unit](double metres) {
+    return lengthIn(unit, metres, kDecimals + extraDecimals(unit));
+  };
+  const auto number = [&](double metres) { return length(metres).section(QChar(' '), 0, 0); };
+  const QString text =
+      tr("Centre of mass %1, %2, %3").arg(number(inWorld->x), number(inWorld->y), length(inWorld->z));
+  if (text == centre_->text()) return;
+  centre_->setText(text);
+  centre_->setToolTip(text + QChar('\n') +
+                      tr("Centre of mass of all visible parts of the group, in the world"));
 }
 
 void PosePanel::showJoints(const QString& text, const QString& help, bool canRemove, int wholeStart) {

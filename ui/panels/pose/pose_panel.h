@@ -3,6 +3,7 @@
 #include <QWidget>
 #include <array>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,7 @@ namespace nearfit::ui {
 class ElidedLabel;
 class NumberField;
 
-/// Shows and edits the pose of one part in numbers: position in the user's unit, rotation as angles about the
+/// Shows and edits the pose of one part, or of one that leads others, in numbers: position in the user's unit, rotation as angles about the
 /// fixed axes x, y, z; and its density. Numbers that the user leaves alone keep their exact values, except that an
 /// angle turns the part about its pivot, which moves the origin of its file.
 class PosePanel : public QWidget {
@@ -46,7 +47,11 @@ class PosePanel : public QWidget {
   void showPose(const RigidTransform& worldFromPart, const RigidTransform& worldFromHand);
   /// Shows the density of the parts and their total mass.
   /// @param isLocked  True if one of them, or a group around it, is locked.
-  void showMass(const std::vector<const Part*>& parts, bool isLocked = false);
+  /// @param total     The mass to show [kg]; nullopt: the sum of theirs.
+  void showMass(const std::vector<const Part*>& parts, bool isLocked = false,
+                const std::optional<double>& total = {});
+  /// Shows where the centre of mass is, in the world [m]; nullopt hides it.
+  void showCentre(const std::optional<glm::dvec3>& inWorld);
   /// Shows what joints keep the part on; hidden if there are none.
   /// @param text       The first joint, in a line; empty: none.
   /// @param help       All of them.
@@ -90,6 +95,7 @@ class PosePanel : public QWidget {
   std::array<NumberField*, 6> fields_{};
   NumberField *step_ = nullptr, *turnStep_ = nullptr, *density_ = nullptr;
   QLabel* mass_ = nullptr;
+  ElidedLabel* centre_ = nullptr;
   QWidget* jointRow_ = nullptr;
   ElidedLabel* joints_ = nullptr;
   QToolButton* removeJoints_ = nullptr;

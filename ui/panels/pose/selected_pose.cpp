@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/placing/pivot.h"
+#include "core/scene/moving_body.h"
 #include "core/session/session.h"
 #include "ui/model/hand_state.h"
 #include "ui/model/joint_names.h"
@@ -19,18 +19,15 @@ namespace {
 
 const glm::dquat kNoTurn(1.0, 0.0, 0.0, 0.0);
 
-/// Returns the part's name, the group's, or "Lid and 2 more"; without a selection the name of what is in hand, if
-/// `part` is.
-QString headingOf(const Scene& scene, const Selection& selection, const Part* part) {
-  if (!selection.current() && part == nullptr) return {};
-  if (!selection.current())
-    return QString::fromStdString(scene.movingGroup() ? scene.findGroup(*scene.movingGroup())->name
-                                                      : part->name);
+/// Returns the part's name, the group's, or "Lid and 2 more"; empty if there is no part.
+QString headingOf(const Scene& scene, const Selection& selection, const PoseSubject& subject) {
+  if (!subject.lead()) return {};
+  if (subject.isGroupInHand) return QString::fromStdString(scene.findGroup(*scene.movingGroup())->name);
   const SceneNodes outer = outermost(scene, selection.nodes());
   if (outer.parts.empty() && outer.groups.size() == 1)
     return QString::fromStdString(scene.findGroup(outer.groups.front())->name);
-  const QString name = QString::fromStdString(scene.find(*selection.current())->name);
-  const auto others = static_cast<int>(selection.parts().size()) - 1;
+  const QString name = QString::fromStdString(scene.get(*subject.lead()).name);
+  const auto others = static_cast<int>(subject.parts.size()) - 1;
   return others > 0 ? SelectedPose::tr("%1 and %n more", nullptr, others).arg(name) : name;
 }
 
@@ -44,17 +41,18 @@ SelectedPose::SelectedPose(const Context& context, PosePanel& panel)
   connect(&context.hand, &HandState::changed, this, &SelectedPose::refresh);
   connect(&context.hand, &HandState::snapshotShown, this, &SelectedPose::showHeldPose);
   connect(&context.poses, &ShownPoses::changed, this, [this](const std::vector<PartId>& parts) {
-    const Part* part = current();
+    const Part* part = lead(subject());
     if (part == nullptr || context_.hand.part() == part->id || std::ranges::count(parts, part->id) == 0)
       return;
     panel_.showPose(context_.poses.poseOf(*part));
+    showCentre(*part);
   });
   changes_ = context.session.onChange(SceneEvents::Stage::Panels, [this] { refresh(); });
   refresh();
 }
 
 void SelectedPose::connectPanel() {
-  panel_.setPivot([this] { return pivotInCurrent(); });
+  panel_.setPivot([this] { return pivotInLead(context_.session.scene(), subject(), context_.poses); });
   connect(&panel_, &PosePanel::poseEdited, this, &SelectedPose::moveRequested);
   connect(&panel_, &PosePanel::densityEdited, this, &SelectedPose::setDensity);
   connect(&panel_, &PosePanel::jointRemovalRequested, this, &SelectedPose::removeJoints);
@@ -66,89 +64,103 @@ void SelectedPose::connectPanel() {
   });
 }
 
-std::vector<PartId> SelectedPose::subjects() const {
-  const std::optional<PartId> held = context_.hand.part();
-  if (context_.selection.current() || !held) return context_.selection.parts();
-  std::vector<PartId> parts = context_.session.scene().movingParts();
-  // The pose of a group is that of the part that leads.
-  std::erase(parts, *held);
-  parts.push_back(*held);
-  return parts;
+PoseSubject SelectedPose::subject() const {
+  return poseSubjectOf(context_.session.scene(), context_.selection, context_.hand);
 }
 
-const Part* SelectedPose::current() const {
-  const std::vector<PartId> parts = subjects();
-  return parts.empty() ? nullptr : context_.session.scene().find(parts.back());
-}
-
-glm::dvec3 SelectedPose::pivotInCurrent() const {
-  const Part* part = current();
-  std::vector<PlacedPart> placed;
-  for (const PartId id : subjects()) {
-    const Part* each = context_.session.scene().find(id);
-    if (each != nullptr && each->geometry != nullptr) placed.push_back({each, context_.poses.poseOf(*each)});
-  }
-  if (part == nullptr || placed.empty()) return glm::dvec3(0.0);
-  const glm::dvec3 pivot = sharedPivot(placed).value_or(centreOfMass(placed));
-  return context_.poses.poseOf(*part).inverse().applyToPoint(pivot);
+const Part* SelectedPose::lead(const PoseSubject& subject) const {
+  return subject.lead() ? context_.session.scene().find(*subject.lead()) : nullptr;
 }
 
 void SelectedPose::refresh() {
   const Scene& scene = context_.session.scene();
-  const Selection& selection = context_.selection;
-  const Part* part = current();
-  const QString heading = headingOf(scene, selection, part);
+  const PoseSubject subject = this->subject();
+  const Part* part = lead(subject);
+  const QString heading = headingOf(scene, context_.selection, subject);
   QString help = heading;
-  if (subjects().size() > 1)
-    help += QChar('\n') + tr("The pose shown is that of %1").arg(QString::fromStdString(part->name));
-  panel_.showPart(heading, context_.guard.refusalOf(subjects()), help);
-  std::vector<const Part*> parts;
-  for (const PartId each : subjects())
-    parts.push_back(scene.find(each));
-  panel_.showMass(parts, std::ranges::any_of(parts, [&](const Part* p) { return scene.isLocked(*p); }));
-  showJoints();
+  if (subject.parts.size() > 1) {
+    help += QChar('\n') + (subject.isGroupInHand
+                               ? tr("The pose shown is that of %1, which leads the group in hand")
+                               : tr("The pose shown is that of %1"))
+                              .arg(QString::fromStdString(part->name));
+  }
+  panel_.showPart(heading, context_.guard.refusalOf(subject), help);
+  showMass(subject);
+  showJoints(subject);
   const HandState& hand = context_.hand;
   if (part != nullptr && hand.isHeldBy(Hand::Manual) && hand.part() == part->id) {
     panel_.showPose(hand.partPose(), hand.handPose());
   } else if (part != nullptr) {
     panel_.showPose(context_.poses.poseOf(*part));
   }
+  if (part != nullptr) showCentre(*part);
 }
 
 void SelectedPose::showHeldPose() {
   const HandState& hand = context_.hand;
-  const Part* part = current();
-  if (part != nullptr && hand.part() == part->id) panel_.showPose(hand.partPose(), hand.handPose());
+  const Part* part = lead(subject());
+  if (part == nullptr || hand.part() != part->id) return;
+  panel_.showPose(hand.partPose(), hand.handPose());
+  showCentre(*part);
+}
+
+void SelectedPose::showMass(const PoseSubject& subject) {
+  const Scene& scene = context_.session.scene();
+  std::vector<const Part*> parts;
+  for (const PartId each : subject.parts)
+    parts.push_back(scene.find(each));
+  const bool isLocked = std::ranges::any_of(parts, [&](const Part* p) { return scene.isLocked(*p); });
+  centreInLead_.reset();
+  panel_.showCentre({});
+  if (!subject.isGroupInHand) return panel_.showMass(parts, isLocked);
+  const MovingMass mass = massOfMoving(scene);
+  panel_.showMass(parts, isLocked, mass.mass);
+  centreInLead_ = mass.properties.centre;
+}
+
+void SelectedPose::showCentre(const Part& lead) {
+  if (!centreInLead_) return;
+  const bool isHeld = context_.hand.part() == lead.id;
+  const RigidTransform pose = isHeld ? context_.hand.partPose() : context_.poses.poseOf(lead);
+  panel_.showCentre(pose.applyToPoint(*centreInLead_));
 }
 
 void SelectedPose::setDensity(double density) {
   try {
-    context_.session.setDensity(subjects(), density);
+    context_.session.setDensity(subject().parts, density);
   } catch (...) {
     emit failed(describe(tr("The density could not be changed."), std::current_exception()));
     refresh();
   }
 }
 
-/// Shows the joints of the current part, whose pose is shown too.
-void SelectedPose::showJoints() {
+std::vector<Joint> SelectedPose::shownJoints(const PoseSubject& subject) const {
   const Scene& scene = context_.session.scene();
-  const Part* part = current();
-  const std::vector<Joint> joints = part != nullptr ? jointsOfParts(scene, {part->id}) : std::vector<Joint>{};
+  if (!subject.lead()) return {};
+  if (!subject.isGroupInHand) return jointsOfParts(scene, {*subject.lead()});
+  std::vector<Joint> joints = jointsOfParts(scene, subject.parts);
+  // These move along and hold nothing.
+  std::erase_if(joints, [&scene](const Joint& joint) { return joint.base && scene.isMoving(*joint.base); });
+  return joints;
+}
+
+void SelectedPose::showJoints(const PoseSubject& subject) {
+  const Scene& scene = context_.session.scene();
+  const std::vector<Joint> joints = shownJoints(subject);
   if (joints.empty()) return panel_.showJoints({});
   const auto others = static_cast<int>(joints.size()) - 1;
   const QString first = jointTexts(scene, {joints.front()});
+  const bool isLocked = std::ranges::any_of(
+      joints, [&scene](const Joint& joint) { return scene.isLocked(scene.get(joint.part)); });
   panel_.showJoints(others > 0 ? tr("%1 and %n more", nullptr, others).arg(first) : first,
-                    jointTexts(scene, joints), !scene.isLocked(*part),
-                    startOfJointText(scene, joints.front()));
+                    jointTexts(scene, joints), !isLocked, startOfJointText(scene, joints.front()));
 }
 
 void SelectedPose::removeJoints() {
-  const Part* part = current();
-  if (part == nullptr) return;
   std::vector<JointId> ids;
-  for (const Joint& joint : jointsOfParts(context_.session.scene(), {part->id}))
+  for (const Joint& joint : shownJoints(subject()))
     ids.push_back(joint.id);
+  if (ids.empty()) return;
   try {
     context_.session.removeJoints(ids);
   } catch (...) {

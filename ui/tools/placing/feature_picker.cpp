@@ -171,13 +171,26 @@ bool FeaturePicker::key(QEvent& event) {
   return true;
 }
 
+QString FeaturePicker::refusalOf(PartId id) const {
+  const Part* part = session_.scene().find(id);
+  return part != nullptr && refusal_ ? refusal_(*part) : QString();
+}
+
+std::optional<PickedPoint> FeaturePicker::meantAt(const QPoint& position) const {
+  std::optional<PickedPoint> seen = view_.pointAt(position, SeenThrough::Last);
+  if (!seen || refusalOf(seen->part).isEmpty()) return seen;
+  // It cannot be meant if a part before it can.
+  std::optional<PickedPoint> nearest = view_.pointAt(position);
+  return nearest && refusalOf(nearest->part).isEmpty() ? nearest : seen;
+}
+
 void FeaturePicker::hoverAt(const QPoint& position) {
   hovered_.reset();
-  const std::optional<PickedPoint> seen = view_.pointAt(position);
+  const std::optional<PickedPoint> seen = meantAt(position);
   const Part* part = seen ? session_.scene().find(seen->part) : nullptr;
   QString text;
   if (part != nullptr) {
-    text = refusal_ ? refusal_(*part) : QString();
+    text = refusalOf(part->id);
     if (text.isEmpty()) {
       const RigidTransform pose = view_.poses().shownPoseOf(*part);
       SurfaceHit hit{seen->triangle, pose.inverse().applyToPoint(seen->point)};

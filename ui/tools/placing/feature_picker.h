@@ -15,6 +15,7 @@ class QShortcut;
 namespace nearfit::ui {
 
 class Viewport;
+struct PickedPoint;
 
 /// A picked feature of a part.
 struct FeaturePick {
@@ -66,6 +67,9 @@ class FeaturePicker : public QObject {
   bool release(const QMouseEvent& event);
   bool key(QEvent& event);
   void hoverAt(const QPoint& position);
+  /// Returns the surface that is meant at a pixel of the view: what is seen through others comes before these.
+  std::optional<PickedPoint> meantAt(const QPoint& position) const;
+  QString refusalOf(PartId part) const;
   void forgetHover();
   void showHovered();
 

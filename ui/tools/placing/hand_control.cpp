@@ -11,6 +11,7 @@
 #include "ui/model/hand_state.h"
 #include "ui/model/joint_names.h"
 #include "ui/model/move_guard.h"
+#include "ui/model/pose_subject.h"
 #include "ui/model/selection.h"
 #include "ui/tools/placing/placing_tools.h"
 #include "ui/view3d/hand_drag.h"
@@ -69,27 +70,30 @@ void HandControl::showHeld() {
 }
 
 void HandControl::place(const RigidTransform& worldFromPart) {
-  const bool isSelected = context_.selection.current().has_value();
-  const std::optional<PartId> part = isSelected ? context_.selection.current() : context_.hand.part();
-  if (!part) return;
-  const QString refusal =
-      context_.guard.refusalOf(isSelected ? context_.selection.parts() : std::vector{*part});
+  const Scene& scene = context_.session.scene();
+  const PoseSubject subject = poseSubjectOf(scene, context_.selection, context_.hand);
+  const std::optional<PartId> lead = subject.lead();
+  if (!lead) return;
+  const QString refusal = context_.guard.refusalOf(subject);
   if (!refusal.isEmpty()) return emit noted(refusal);
-  if (!context_.hand.holds(part)) return context_.placing.bring(worldFromPart);
-  const JointSet joints = jointsOf(context_.session.scene(), *part);
+  if (!context_.hand.holds(lead)) return context_.placing.bring(subject.parts, *lead, worldFromPart, "Move");
+  const JointSet joints = jointsOfMoving(scene);
   const JointResidual off = joints.residual(worldFromPart);
   const bool isOff = off.distance > JointSet::kMaxMisfit || off.angle > JointSet::kMaxMisfitAngle;
-  if (isOff && !joints.isContradictory()) emit noted(heldText(context_.session.scene(), {*part}));
+  if (isOff && !joints.isContradictory()) emit noted(heldText(scene, subject.parts));
   moveHand(worldFromPart);
 }
 
 void HandControl::step(const glm::dvec3& shift, const glm::dquat& turn) {
   if (context_.hand.isHeldBy(Hand::Manual)) return stepHand(shift, turn);
   context_.placing.commit();
-  const std::optional<PartId> id = context_.selection.current();
-  const Part* part = id ? context_.session.scene().find(*id) : nullptr;
+  if (!context_.selection.current()) return;
+  const Scene& scene = context_.session.scene();
+  const PoseSubject subject = poseSubjectOf(scene, context_.selection, context_.hand);
+  const Part* part = scene.find(*subject.lead());
   if (part == nullptr) return;
-  const glm::dvec3 pivot = part->pivot.value_or(part->geometry->mass.centre);
+  const glm::dvec3 pivot = subject.isGroupInHand ? pivotInLead(scene, subject, context_.view.poses())
+                                                 : part->pivot.value_or(part->geometry->mass.centre);
   place(stepped(part->worldFromPart, shift, turn, pivot));
 }
 

@@ -42,12 +42,13 @@ class HandControl : public QObject {
   QAction* letGoAction() const noexcept { return letGo_; }
 
  public slots:
-  /// Moves the current part, or the part in hand while none is selected. What is in the manual hand is moved
-  /// by that hand.
+  /// Moves the selected parts, or what is in hand while none is selected, so that the part that leads them gets that
+  /// pose (PoseSubject). What is in the manual hand is moved by that hand.
   void place(const nearfit::RigidTransform& worldFromPart);
-  /// Moves the manual hand, if it holds a part, else the current part.
+  /// Moves the manual hand, if it holds a part, else the selected parts.
   /// @param shift  World [m].
-  /// @param turn   In the world frame, about the part's pivot; of the hand, about the part's centre of mass.
+  /// @param turn   In the world frame, about the part's pivot, or that of the group in hand; of the hand, about the
+  ///               centre of mass.
   void step(const glm::dvec3& shift, const glm::dquat& turn);
 
  signals:

@@ -13,6 +13,7 @@
 #include "core/placing/jointed_motion.h"
 #include "ui/model/joint_names.h"
 #include "ui/model/move_guard.h"
+#include "ui/model/pose_subject.h"
 #include "ui/model/scene_work.h"
 #include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
@@ -166,8 +167,10 @@ std::optional<GizmoFrame> PlacingTools::frame() const {
   GizmoFrame frame;
   const std::optional<glm::dvec3> given = draggedPivot_ ? draggedPivot_ : sharedPivot(parts);
   frame.pivot = given ? *given : centreOfMass(parts);
-  // The pose panel shows the current part, so use its axes too.
-  if (actions_->localAxes->isChecked()) frame.axes = glm::mat3_cast(parts.back().worldFromPart.rotation);
+  if (!actions_->localAxes->isChecked()) return frame;
+  // The pose panel shows the part that leads, so use its axes too.
+  const Part& lead = session_.scene().get(leadOf(session_.scene(), selection_.parts()));
+  frame.axes = glm::mat3_cast(view_.poses().poseOf(lead).rotation);
   return frame;
 }
 
@@ -212,10 +215,6 @@ Scene PlacingTools::sceneNow() const {
     scene.replace(std::move(moved));
   }
   return scene;
-}
-
-void PlacingTools::bring(const RigidTransform& worldFromCurrent) {
-  if (!selection_.parts().empty()) bring(selection_.parts(), *selection_.current(), worldFromCurrent, "Move");
 }
 
 void PlacingTools::bring(const std::vector<PartId>& parts, PartId lead, const RigidTransform& worldFromLead,

@@ -58,8 +58,6 @@ class PlacingTools : public QObject {
   /// @param verb  Name of the undo step, before the part's name; a string literal.
   void bring(const std::vector<PartId>& parts, PartId lead, const RigidTransform& worldFromLead,
              const char* verb);
-  /// The same for the selected parts, with the current part as the lead.
-  void bring(const RigidTransform& worldFromCurrent);
 
  signals:
   /// Emitted when the manual hand is to want the part there.

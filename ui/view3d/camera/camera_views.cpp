@@ -178,14 +178,10 @@ void setUpLights(vtkRenderer& renderer) {
 }
 
 void setUpBackground(vtkRenderer& renderer) {
+  const auto [lower, upper] = viewGround();
   renderer.GradientBackgroundOn();
-  if (isThemeDark()) {
-    renderer.SetBackground(0.27, 0.31, 0.36);
-    renderer.SetBackground2(0.13, 0.15, 0.18);
-  } else {
-    renderer.SetBackground(0.72, 0.78, 0.85);
-    renderer.SetBackground2(0.955, 0.968, 0.98);
-  }
+  renderer.SetBackground(lower.redF(), lower.greenF(), lower.blueF());
+  renderer.SetBackground2(upper.redF(), upper.greenF(), upper.blueF());
 }
 
 }  // namespace nearfit::ui

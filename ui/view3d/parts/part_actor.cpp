@@ -26,15 +26,27 @@ constexpr float kEdgeWidth = 1.3F;
 /// small part would be a blot.
 constexpr double kSeenEdges = 0.5, kMaxInk = 0.4;
 
-void setEdgeColour(vtkProperty& property, const PartLook& look) {
+QColor edgeColour(const PartLook& look) {
   const QColor dark(0x1a, 0x22, 0x2b);
-  const QColor colour = look.isSelected      ? colours::kAccent
-                        : look.isMoving      ? colours::kMoving.darker(150)
-                        : look.isOverlapping ? colours::kOverlap.darker(150)
-                                             : dark;
+  return look.isSelected      ? colours::kAccent
+         : look.isMoving      ? colours::kMoving.darker(150)
+         : look.isOverlapping ? colours::kOverlap.darker(150)
+                              : dark;
+}
+
+/// Of a part that is little more than its edges: these alone set it off from the background.
+QColor outlineOf(const PartLook& look) {
+  return outlineColour(look.isSelected      ? colours::kAccent
+                       : look.isMoving      ? colours::kMoving
+                       : look.isOverlapping ? colours::kOverlap
+                                            : colours::kOutline);
+}
+
+void setEdgeColour(vtkProperty& property, const PartLook& look, bool isOutlined) {
+  const QColor colour = isOutlined ? outlineOf(look) : edgeColour(look);
   property.SetColor(colour.redF(), colour.greenF(), colour.blueF());
   property.SetLineWidth(devicePixels(look.isSelected ? 2.4F : kEdgeWidth));
-  property.SetOpacity(look.isTranslucent && !look.isSelected ? 0.55 : 1.0);
+  property.SetOpacity(look.isTranslucent && !look.isSelected && !isOutlined ? 0.55 : 1.0);
 }
 
 /// Adds a prop that the renderer does not have yet. AddViewProp() would look through all props for it: for all
@@ -198,7 +210,7 @@ bool PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLo
   }
   look_->SetOpacity(opacity());
   hideBackFaces();
-  setEdgeColour(*edges_->GetProperty(), look);
+  setEdgeColour(*edges_->GetProperty(), look, isOutlined());
   showPieces();
   setThrough(isVisible && (look.isSelected || look.isHighlighted));
   showVeil();

@@ -86,6 +86,7 @@ struct PartLook {
   bool hasEdges = true;
   /// Others are drawn in the colours of their clearances, this one is not: it must not tint them.
   bool isBesideColours = false;
+  bool isDark = false;   ///< The theme; its outlines beside colours have other colours.
   double opacity = 1.0;  ///< The part's own opacity, 0 to 1.
   bool operator==(const PartLook&) const = default;
 };
@@ -93,7 +94,7 @@ struct PartLook {
 /// The actors of one part: surface and edge lines. In the renderer from construction to destruction.
 /// While the part is selected or highlighted, a faint veil and its edges are also drawn over everything, so that it
 /// shows behind other parts. Beside parts in the colours of their clearances, a translucent part is little more than its
-/// edges, and there is no veil.
+/// edges, which stand out from the background, and there is no veil.
 class PartActor {
  public:
   /// @param renderer  Outlives this.

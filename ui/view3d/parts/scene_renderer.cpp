@@ -6,6 +6,7 @@
 #include <vtkBoundingBox.h>
 
 #include "ui/model/shown_poses.h"
+#include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 
@@ -45,6 +46,10 @@ void SceneRenderer::setSeeThrough(bool isSeeThrough) {
 
 void SceneRenderer::setEdgesVisible(bool isVisible) {
   hasEdges_ = isVisible;
+  applyAll();
+}
+
+void SceneRenderer::followTheme() {
   applyAll();
 }
 
@@ -142,6 +147,7 @@ void SceneRenderer::applyAppearance(const Part& part) {
   look.opacity = part.opacity;
   PartActor& actor = actorOf(part);
   look.isBesideColours = hasColours_ && actor.colours() == nullptr;
+  look.isDark = look.isBesideColours && isThemeDark();
   if (actor.setAppearance(part.colour, part.isVisible, look)) ++revision_;
   place(part);
 }

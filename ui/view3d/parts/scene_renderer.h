@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,6 +27,13 @@ struct PickedPoint {
   std::shared_ptr<const MeshSection> cut;
 };
 
+/// How picking takes surfaces that are seen through: translucent ones that are not in the colours of their clearances.
+enum class SeenThrough : std::uint8_t {
+  AsOthers,  ///< The nearest surface is picked, whichever it is.
+  Last,      ///< They are picked only where no other surface is, in front of them or behind.
+  Never,
+};
+
 /// Keeps one PartActor for each part of the scene. Knows no widget; never renders by itself.
 class SceneRenderer {
  public:
@@ -42,6 +50,8 @@ class SceneRenderer {
   /// While there is a moving part, makes all others translucent, so that gaps between them can be seen.
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);
+  /// Takes the colours of the present theme; call when it has changed.
+  void followTheme();
   /// Moves parts to where ShownPoses has them now; ignores those that are not in the scene.
   void place(std::span<const PartId> parts);
 
@@ -100,8 +110,7 @@ class SceneRenderer {
     return picked ? std::optional(picked->part) : std::nullopt;
   }
   /// Like pick(), with the point of its surface.
-  /// @param isColoured  Looks through translucent parts that have no colours.
-  std::optional<PickedPoint> pickPoint(double x, double y, bool isColoured = false);
+  std::optional<PickedPoint> pickPoint(double x, double y, SeenThrough seenThrough = SeenThrough::AsOthers);
   /// Returns the parts seen at some pixel of a box, in the scene's order. Translucent parts hide nothing.
   std::vector<PartId> seenIn(const ViewProjection& view, const PixelBox& pixels) const;
 
@@ -113,6 +122,8 @@ class SceneRenderer {
   void place(const Part& part);
   void open(PartActor& actor, bool isCut);
   View view() const;
+  /// True if the cut face of that part is seen through.
+  bool isCapSeenThrough(PartId part) const;
   /// Returns the part whose cut face contains a point of the plane.
   std::optional<PickedPoint> capAt(const glm::dvec3& point) const;
 

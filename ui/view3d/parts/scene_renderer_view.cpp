@@ -55,6 +55,12 @@ struct Hit {
   glm::dvec3 point{0.0};  ///< In the part's frame [m].
 };
 
+/// The nearest surface on a ray.
+struct Nearest {
+  Hit hit;
+  std::optional<PickedPoint> picked;
+};
+
 /// Finds the first triangle on a ray in the part's frame. True, with `hit` updated, if
 /// it is nearer than `hit`.
 bool hitFirst(const PartShape& shape, const Ray& ray, Hit& hit) {
@@ -154,28 +160,44 @@ void SceneRenderer::letGoOfKept() {
   beingKept_.clear();
 }
 
-std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y, bool isColoured) {
+std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y, SeenThrough seenThrough) {
   updateCut();
   const Ray whole{worldOf(renderer_, x, y, 0.0), worldOf(renderer_, x, y, 1.0)};
-  std::optional<PickedPoint> picked;
-  Hit hit;
+  // The nearest surface, and the nearest of those that count only where there is no other.
+  Nearest first, last;
+  // Returns null for a surface that is not to be picked.
+  const auto nearestOf = [&](bool isSeenThrough) -> Nearest* {
+    if (!isSeenThrough || seenThrough == SeenThrough::AsOthers) return &first;
+    return seenThrough == SeenThrough::Last ? &last : nullptr;
+  };
   if (const auto through = cut_.cut() ? throughPlane(whole, cut_.cut()->plane) : std::nullopt) {
-    picked = capAt(whole.at(*through));
-    if (picked) hit.fraction = *through;
+    const std::optional<PickedPoint> cap = capAt(whole.at(*through));
+    if (Nearest* nearest = cap ? nearestOf(isCapSeenThrough(cap->part)) : nullptr) {
+      nearest->picked = cap;
+      nearest->hit.fraction = *through;
+    }
   }
   for (const auto& [id, actor] : actors_) {
     const Part* part = scene_.find(id);
     if (part == nullptr || !actor->isVisible()) continue;
-    if (isColoured && !actor->isOpaque() && actor->colours() == nullptr) continue;
+    Nearest* nearest = nearestOf(!actor->isOpaque() && actor->colours() == nullptr);
+    if (nearest == nullptr) continue;
     const auto seen = actor->mappers().isCut() ? behind(whole, planeOf(*cut_.plane())) : std::optional(whole);
     if (!seen) continue;
     const RigidTransform worldFromPart = poses_.shownPoseOf(*part), partFromWorld = worldFromPart.inverse();
     const Ray ray{partFromWorld.applyToPoint(seen->begin), partFromWorld.applyToPoint(seen->end), seen->from,
                   seen->to};
-    if (hitFirst(actor->shape(), ray, hit))
-      picked = PickedPoint{id, worldFromPart.applyToPoint(hit.point), hit.triangle, nullptr};
+    if (hitFirst(actor->shape(), ray, nearest->hit)) {
+      const Hit& hit = nearest->hit;
+      nearest->picked = PickedPoint{id, worldFromPart.applyToPoint(hit.point), hit.triangle, nullptr};
+    }
   }
-  return picked;
+  return first.picked ? first.picked : last.picked;
+}
+
+bool SceneRenderer::isCapSeenThrough(PartId part) const {
+  // A cut face is as translucent as the part is by itself, whatever else the part is seen through for.
+  return scene_.get(part).opacity < 1.0 && find(part)->colours() == nullptr;
 }
 
 std::vector<PartId> SceneRenderer::seenIn(const ViewProjection& view, const PixelBox& pixels) const {

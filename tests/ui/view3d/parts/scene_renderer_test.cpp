@@ -12,6 +12,7 @@
 #include <vtkRenderWindow.h>
 
 #include "tests/support/mesh_generators.h"
+#include "tests/support/qt/contrast.h"
 #include "tests/support/qt/qt_suite.h"
 #include "ui/model/shown_poses.h"
 #include "ui/widgets/theme.h"
@@ -27,6 +28,8 @@ class SceneRendererTest : public QObject {
   void edgesThatWouldCoverAPartAreLeftOut();
   void aSelectedPartIsTintedByTheVeilOfItsShape();
   void aPartIsAddedWithoutASearchThroughAllOthers();
+  void outlinesBesideAMapStandOutAndFollowTheTheme();
+  void cleanup() { ui::setColourScheme(ui::ColourScheme::Light); }
 
  private:
   static PartGeometryPtr cube() {
@@ -166,6 +169,31 @@ void SceneRendererTest::aSelectedPartIsTintedByTheVeilOfItsShape() {
   QCOMPARE(veils, 1);
   parts.setSelected({});
   QCOMPARE(over->GetActors()->GetNumberOfItems(), 0);
+}
+
+/// In the dark theme they were nearly as dark as the background.
+void SceneRendererTest::outlinesBesideAMapStandOutAndFollowTheTheme() {
+  Scene scene;
+  const PartId mapped = scene.add(partOf("a"));
+  Part beside = partOf("b");
+  beside.opacity = 0.5;
+  const PartId outlined = scene.add(beside);
+  parts_.setScene(scene);
+  ui::ColouredSurface surface;
+  surface.range = 0.01;
+  parts_.setColours({{mapped, std::make_shared<const ui::ColouredSurface>(surface)}}, false);
+  for (const ui::ColourScheme scheme : {ui::ColourScheme::Light, ui::ColourScheme::Dark}) {
+    ui::setColourScheme(scheme);
+    parts_.followTheme();
+    vtkProperty& lines = parts_.find(outlined)->edgeLook();
+    double rgb[3];
+    lines.GetColor(rgb);
+    const QColor shown = QColor::fromRgbF(rgb[0], rgb[1], rgb[2]);
+    const ui::ViewGround ground = ui::viewGround();
+    QCOMPARE(lines.GetOpacity(), 1.0);
+    QVERIFY2(test::contrast(shown, ground.lower) >= 3.0 && test::contrast(shown, ground.upper) >= 3.0,
+             qPrintable(shown.name()));
+  }
 }
 
 NEARFIT_QT_SUITE(SceneRendererTest, test::runQtTest<SceneRendererTest>)
