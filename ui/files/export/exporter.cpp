@@ -20,11 +20,11 @@
 namespace nearfit::ui {
 namespace {
 
-/// Returns "placement", "clearance-map", "clearance-histogram" or, for meshes, the scene's name or "parts".
+/// Returns "placement", "clearance-map", "clearance-histogram" or, for meshes and assemblies, the scene's name or "parts".
 QString nameFor(const Session& session, ExportKind kind) {
   if (kind == ExportKind::ClearanceMapPly) return QStringLiteral("clearance-map");
   if (kind == ExportKind::ClearanceHistogramCsv) return QStringLiteral("clearance-histogram");
-  if (!meshKindOf(kind)) return QStringLiteral("placement");
+  if (!hasChosenParts(kind)) return QStringLiteral("placement");
   return session.file().empty() ? QStringLiteral("parts") : fromPath(session.file().stem());
 }
 
@@ -40,7 +40,8 @@ Exporter::Exporter(Session& session, const Selection& selection, const SceneWork
       window_(window),
       export_(makeAction(
           this, "exportPlacement", tr("&Export…"), QStringLiteral("export"), QStringLiteral("Ctrl+E"),
-          tr("Export the poses of the parts (JSON, CSV), the parts as one mesh, or a map of clearance"))),
+          tr("Export the poses of the parts (JSON, CSV), the parts as one mesh or as an assembly, or a map of "
+             "clearance"))),
       copy_(makeAction(this, "copyPlacement", tr("&Copy placement"), QStringLiteral("copy"),
                        QStringLiteral("Ctrl+Shift+C"))) {
   copy_->setToolTip(tr("Copy the selected part's placement as a 4x4 matrix by rows, in metres"));
