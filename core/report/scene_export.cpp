@@ -12,6 +12,7 @@
 #include "core/report/glb_export.h"
 #include "core/report/placement_export.h"
 #include "core/report/placement_table.h"
+#include "core/report/step_export.h"
 #include "core/report/threemf_export.h"
 #include "core/report/urdf_export.h"
 
@@ -21,7 +22,9 @@ namespace {
 /// Kinds that an extension stands for.
 constexpr std::array kKinds = {ExportKind::PlacementJson, ExportKind::PlacementCsv, ExportKind::MeshStl,
                                ExportKind::MeshObj,       ExportKind::MeshPly,      ExportKind::AssemblyGlb,
-                               ExportKind::AssemblyThreeMf, ExportKind::AssemblyUrdf};
+                               ExportKind::AssemblyThreeMf, ExportKind::AssemblyUrdf, ExportKind::AssemblyStep};
+/// Another extension of STEP files.
+constexpr std::string_view kShortStep = "stp";
 
 /// Progress when a map is computed.
 constexpr double kMapped = 0.8;
@@ -47,9 +50,11 @@ void exportMap(const Scene& placed, const SceneExport& what, const std::filesyst
 }
 
 /// @param placed  Has the moving part where it is now.
-void exportAssembly(const Scene& placed, const SceneExport& what, const std::filesystem::path& file,
-                    const ProgressCallback& progress) {
+std::vector<std::string> exportAssembly(const Scene& placed, const SceneExport& what,
+                                        const std::filesystem::path& file, const ProgressCallback& progress) {
   const std::vector<Scene::PartPtr> parts = chosenParts(placed, what.only);
+  if (what.kind == ExportKind::AssemblyStep)
+    return exportStep(placed, parts, what.schema, file, progress).notes;
   if (what.kind == ExportKind::AssemblyGlb) {
     exportGlb(placed, parts, file, progress);
   } else if (what.kind == ExportKind::AssemblyThreeMf) {
@@ -57,6 +62,7 @@ void exportAssembly(const Scene& placed, const SceneExport& what, const std::fil
   } else {
     exportUrdf(placed, parts, file, progress);
   }
+  return {};
 }
 
 }  // namespace
@@ -76,6 +82,7 @@ std::optional<MeshFileKind> meshKindOf(ExportKind kind) noexcept {
     case ExportKind::AssemblyGlb:
     case ExportKind::AssemblyThreeMf:
     case ExportKind::AssemblyUrdf:
+    case ExportKind::AssemblyStep:
       break;
   }
   return std::nullopt;
@@ -83,7 +90,7 @@ std::optional<MeshFileKind> meshKindOf(ExportKind kind) noexcept {
 
 bool isAssembly(ExportKind kind) noexcept {
   return kind == ExportKind::AssemblyGlb || kind == ExportKind::AssemblyThreeMf ||
-         kind == ExportKind::AssemblyUrdf;
+         kind == ExportKind::AssemblyUrdf || kind == ExportKind::AssemblyStep;
 }
 
 bool hasChosenParts(ExportKind kind) noexcept {
@@ -105,6 +112,8 @@ std::string_view extensionOf(ExportKind kind) noexcept {
       return "3mf";
     case ExportKind::AssemblyUrdf:
       return "urdf";
+    case ExportKind::AssemblyStep:
+      return "step";
     case ExportKind::PlacementJson:
       return "json";
     default:
@@ -117,19 +126,20 @@ std::optional<ExportKind> exportKindOf(const std::filesystem::path& file) {
   if (!extension.empty()) extension.erase(0, 1);
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == kShortStep) return ExportKind::AssemblyStep;
   for (const ExportKind kind : kKinds) {
     if (extension == extensionOf(kind)) return kind;
   }
   return std::nullopt;
 }
 
-void exportScene(const Scene& scene, const RigidTransform& worldFromMoving, const SceneExport& what,
-                 const std::filesystem::path& file, const ProgressCallback& progress) {
+std::vector<std::string> exportScene(const Scene& scene, const RigidTransform& worldFromMoving,
+                                     const SceneExport& what, const std::filesystem::path& file,
+                                     const ProgressCallback& progress) {
+  if (isAssembly(what.kind)) return exportAssembly(placedScene(scene, worldFromMoving), what, file, progress);
   if (const auto mesh = meshKindOf(what.kind)) {
     const Scene placed = placedScene(scene, worldFromMoving);
     exportMesh(chosenParts(placed, what.only), *mesh, what.metresPerUnit, file, progress);
-  } else if (isAssembly(what.kind)) {
-    exportAssembly(placedScene(scene, worldFromMoving), what, file, progress);
   } else if (isMap(what.kind)) {
     exportMap(placedScene(scene, worldFromMoving), what, file, progress);
   } else if (what.kind == ExportKind::PlacementCsv) {
@@ -137,6 +147,7 @@ void exportScene(const Scene& scene, const RigidTransform& worldFromMoving, cons
   } else {
     exportPlacement(scene, worldFromMoving, file);
   }
+  return {};
 }
 
 }  // namespace nearfit

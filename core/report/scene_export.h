@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/import/step_request.h"
 #include "core/report/mesh_export.h"
 
 namespace nearfit {
@@ -23,11 +24,12 @@ enum class ExportKind : std::uint8_t {
   AssemblyGlb,            ///< glb_export.h
   AssemblyThreeMf,        ///< threemf_export.h
   AssemblyUrdf,           ///< urdf_export.h
+  AssemblyStep,           ///< step_export.h
 };
 
-/// File name extension: "json", "csv", "stl", "obj", "ply", "glb", "3mf" or "urdf".
+/// File name extension: "json", "csv", "stl", "obj", "ply", "glb", "3mf", "urdf" or "step".
 std::string_view extensionOf(ExportKind kind) noexcept;
-/// The kind that a file's extension stands for, in any case; std::nullopt if none. Never a map or its histogram: other
+/// The kind that a file's extension stands for, in any case, also "stp"; std::nullopt if none. Never a map or its histogram: other
 /// kinds have the same extensions.
 std::optional<ExportKind> exportKindOf(const std::filesystem::path& file);
 /// The kind of mesh file; std::nullopt for others.
@@ -53,12 +55,15 @@ struct SceneExport {
   /// Parts of a mesh or an assembly; empty: all visible ones. Placements have all parts.
   std::vector<PartId> only;
   MapExport map;                ///< For a map of clearance or its histogram.
+  StepSchema schema = StepSchema::Ap214;  ///< Of a STEP file.
 };
 
-/// Exports a scene to a file, atomically. Blocking: a JSON placement and a map build missing hierarchies.
+/// Exports a scene to a file, atomically. Returns sentences about what the file does not hold as a user may expect it, as a
+/// rule none. Blocking: a JSON placement and a map build missing hierarchies.
 /// @param worldFromMoving  Present pose of the moving part; unused if there is none.
 /// Throws FileError, UsageError, Cancelled (meshes, assemblies, maps).
-void exportScene(const Scene& scene, const RigidTransform& worldFromMoving, const SceneExport& what,
-                 const std::filesystem::path& file, const ProgressCallback& progress = {});
+std::vector<std::string> exportScene(const Scene& scene, const RigidTransform& worldFromMoving,
+                                     const SceneExport& what, const std::filesystem::path& file,
+                                     const ProgressCallback& progress = {});
 
 }  // namespace nearfit

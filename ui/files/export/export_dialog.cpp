@@ -82,6 +82,7 @@ void ExportDialog::setUpFields() {
   add(tr("Assembly (glTF binary, GLB)"), ExportKind::AssemblyGlb);
   add(tr("Assembly (3MF)"), ExportKind::AssemblyThreeMf);
   add(tr("Assembly (URDF, fixed joints)"), ExportKind::AssemblyUrdf);
+  add(tr("Assembly (STEP, AP214)"), ExportKind::AssemblyStep);
   visible_ = new QRadioButton(tr("All &visible"), this);
   chosen_ = new QRadioButton(tr("&Selected (%1)").arg(selected_.size()), this);
   visible_->setObjectName(QStringLiteral("exportVisible"));
@@ -128,8 +129,9 @@ void ExportDialog::remember() const {
 }
 
 SceneExport ExportDialog::choice() const {
-  SceneExport what{
-      static_cast<ExportKind>(kind_->currentData().toInt()), unit_->currentData().toDouble(), {}, {}};
+  SceneExport what;
+  what.kind = static_cast<ExportKind>(kind_->currentData().toInt());
+  what.metresPerUnit = unit_->currentData().toDouble();
   if (chosen_->isChecked()) what.only = selected_;
   what.map = {mapSubject(scene_, selected_), Preferences::clearanceRange(), Preferences::hasNearClearances()};
   return what;
@@ -182,6 +184,9 @@ QString ExportDialog::assemblySummary(ExportKind kind) const {
                            .arg(partsText(parts.size())) +
                        QChar(' ');
   switch (kind) {
+    case ExportKind::AssemblyStep:
+      return text + tr("In mm. Parts of STEP, IGES and BREP files have their exact surfaces, if their file is unchanged "
+                       "and their mesh not repaired; others are planar facets.");
     case ExportKind::AssemblyGlb:
       return text + tr("In metres, y up as the format demands; one file, vertices in single precision.");
     case ExportKind::AssemblyThreeMf:

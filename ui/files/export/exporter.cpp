@@ -4,7 +4,10 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QFileInfo>
+#include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/report/placement_table.h"
@@ -84,13 +87,17 @@ void Exporter::askAndExport(std::optional<ExportKind> kind) {
 }
 
 void Exporter::write(const SceneExport& what, const QString& file) {
-  const auto job = [scene = session_.scene(), pose = poseOfMoving_(), what, path = toPath(file)](
-                       const ProgressCallback& progress) { exportScene(scene, pose, what, path, progress); };
+  // Set by the job, and read once it has ended.
+  const auto notes = std::make_shared<std::vector<std::string>>();
+  const auto job = [scene = session_.scene(), pose = poseOfMoving_(), what, path = toPath(file),
+                    notes](const ProgressCallback& progress) {
+    *notes = exportScene(scene, pose, what, path, progress);
+  };
   const QString name = QFileInfo(file).fileName();
   progress_ = new ProgressDialog(tr("Writing %1").arg(name), window_);
   connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
   connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
-  task_.run(job, [this, file, name](const std::exception_ptr& error) {
+  task_.run(job, [this, file, name, notes](const std::exception_ptr& error) {
     delete progress_;
     if (isCancelled(error)) return;
     if (error) {
@@ -98,7 +105,10 @@ void Exporter::write(const SceneExport& what, const QString& file) {
       return;
     }
     Preferences::rememberFolderOf(file);
-    emit noted(tr("Exported %1").arg(name));
+    QString text = tr("Exported %1").arg(name);
+    if (!notes->empty()) text += QStringLiteral(". ") + QString::fromStdString(notes->front());
+    if (notes->size() > 1) text += tr(" (and %1 more)").arg(notes->size() - 1);
+    emit noted(text);
   });
 }
 
