@@ -42,7 +42,8 @@ constexpr std::size_t kWrittenAtOnce = std::size_t{1} << 20;
 std::vector<std::byte> readRequestBytes() {
   struct ::stat status{};
   if (::fstat(protocol::kRequestDescriptor, &status) != 0 || !S_ISREG(status.st_mode))
-    throw nearfit::UsageError("nearfit-export", "there is no request", "nearfit starts this program by itself");
+    throw nearfit::UsageError("nearfit-export", "there is no request",
+                              "nearfit starts this program by itself");
   std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
   for (std::size_t done = 0; done < bytes.size();) {
     const ::ssize_t count = ::pread(protocol::kRequestDescriptor, bytes.data() + done, bytes.size() - done,
@@ -77,7 +78,8 @@ class ResultFile {
 };
 
 /// Exact geometry where there is one, facets elsewhere.
-std::vector<exporter::ProductShape> shapesOf(const nearfit::StepRequest& request, exporter::ExactSources& sources,
+std::vector<exporter::ProductShape> shapesOf(const nearfit::StepRequest& request,
+                                             exporter::ExactSources& sources,
                                              importer::MessagePipe& messages) {
   std::vector<exporter::ProductShape> shapes;
   std::size_t facets = 0;
@@ -135,7 +137,8 @@ int run(importer::MessagePipe& messages) {
   } catch (const Standard_OutOfMemory&) {
     return protocol::kOutOfMemory;
   } catch (const Standard_Failure& failure) {
-    return fail(messages, "", fmt::format("OpenCASCADE cannot write it: {}", failure.GetMessageString()), kRemedy);
+    return fail(messages, "", fmt::format("OpenCASCADE cannot write it: {}", failure.GetMessageString()),
+                kRemedy);
   } catch (const std::exception& error) {
     return fail(messages, "", fmt::format("it cannot be written: {}", error.what()), kRemedy);
   }
@@ -153,7 +156,9 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (argc > 1) {
-    fmt::print(stderr, "nearfit-export: it takes no arguments but --version; nearfit starts this program by itself\n");
+    fmt::print(
+        stderr,
+        "nearfit-export: it takes no arguments but --version; nearfit starts this program by itself\n");
     return protocol::kFailed;
   }
   // Started by hand, it has no messages to write: what is open there is not its own.

@@ -29,12 +29,14 @@ constexpr const char* kExportFooter =
     "  .stl   the parts as one mesh in the world frame, binary, single precision\n"
     "  .obj   the same in double precision, each part an object and a group of its name\n"
     "  .ply   the same, binary, in double precision, with the parts' colours\n"
-    "  .step  the parts as an assembly with groups, names, colours and poses, in mm: exact surfaces for parts of STEP,\n"
+    "  .step  the parts as an assembly with groups, names, colours and poses, in mm: exact surfaces for "
+    "parts of STEP,\n"
     "         IGES and BREP files that are unchanged, facets for others; also .stp\n"
     "  .glb   the same as glTF 2.0, metres, y up\n"
     "  .3mf   the same as 3MF, in the unit of --unit: um, mm, cm, in, ft or m\n"
     "  .urdf  the same as a robot of fixed joints, metres, with its meshes in OUT_meshes\n"
-    "A mesh or an assembly contains all visible parts, or those named by --part. An existing OUT is replaced.\n"
+    "A mesh or an assembly contains all visible parts, or those named by --part. An existing OUT is "
+    "replaced.\n"
     "Example: nearfit-cli export fit.nearfit fit.stl --unit mm --part Peg";
 
 std::vector<PartId> partsNamed(const Scene& scene, const std::vector<std::string>& names) {
@@ -82,8 +84,8 @@ void runExport(const ExportOptions& options) {
 
 void addExportCommand(CLI::App& program) {
   const auto options = std::make_shared<ExportOptions>();
-  CLI::App* command =
-      program.add_subcommand("export", "Exports the poses of a scene's parts, or the parts as a mesh or an assembly.");
+  CLI::App* command = program.add_subcommand(
+      "export", "Exports the poses of a scene's parts, or the parts as a mesh or an assembly.");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required()->type_name("SCENE");
   command->add_option("-o,out", options->out, "File to write")->required()->type_name("OUT");
   command
@@ -93,8 +95,9 @@ void addExportCommand(CLI::App& program) {
       ->type_name("NAME");
   CLI::Option* unit =
       command
-          ->add_option("--unit", options->unit,
-                       "Unit of the coordinates of a mesh or a 3MF file: m, cm, mm, um, in, ft, or a number of metres")
+          ->add_option(
+              "--unit", options->unit,
+              "Unit of the coordinates of a mesh or a 3MF file: m, cm, mm, um, in, ft, or a number of metres")
           ->capture_default_str();
   CLI::Option* schema =
       command->add_option("--schema", options->schema, "Schema of a STEP file: ap214 or ap242")

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
@@ -38,6 +39,8 @@ TopoDS_Shape shapeOf(const importer::ExactShape& exact) {
   builder.MakeSolid(solid);
   for (const TopoDS_Shape& shell : shells)
     builder.Add(solid, shell);
+  // Shells that were sewn, or of files that do not care, may look inward.
+  BRepLib::OrientClosedSolid(solid);
   return solid;
 }
 
@@ -78,15 +81,16 @@ ExactSources::ExactSources(const StepRequest& request)
         options.onlyShapes.push_back(request.sources[shape]->key);
       Opened opened{importer::openJob(options), shapes};
       if (opened.job.sha256 != file.second) {
-        importer::addWarning(notes_, fmt::format("{} has changed since it was imported: its parts are written as "
-                                                 "facets.",
-                                                 file.first.string()));
+        importer::addWarning(notes_,
+                             fmt::format("{} has changed since it was imported: its parts are written as "
+                                         "facets.",
+                                         file.first.string()));
       } else if (hasExactSurfaces(opened.job.format)) {
         files_.push_back(std::move(opened));
       }
     } catch (const Error& error) {
-      importer::addWarning(notes_, fmt::format("{}: {}; its parts are written as facets.", file.first.string(),
-                                               error.problem()));
+      importer::addWarning(notes_, fmt::format("{}: {}; its parts are written as facets.",
+                                               file.first.string(), error.problem()));
     }
   }
 }
@@ -128,8 +132,8 @@ void ExactSources::readOne(Opened& opened) {
       try {
         found_[shape] = productOf(exact, scale);
       } catch (const Standard_Failure& failure) {
-        importer::addWarning(notes_, fmt::format("\"{}\" is written as facets: {}.", exact.key,
-                                                 failure.GetMessageString()));
+        importer::addWarning(
+            notes_, fmt::format("\"{}\" is written as facets: {}.", exact.key, failure.GetMessageString()));
       }
     }
   };

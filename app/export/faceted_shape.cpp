@@ -139,7 +139,8 @@ class FacetBuilder {
     for (std::uint32_t t = 0; t < mesh_.triangles().size(); ++t) {
       const auto [a, b, c] = corners(t);
       ShellPart& part = partOf(t);
-      part.sixVolumes += glm::dot(a - mesh_.vertices()[0], glm::cross(b - mesh_.vertices()[0], c - mesh_.vertices()[0]));
+      part.sixVolumes +=
+          glm::dot(a - mesh_.vertices()[0], glm::cross(b - mesh_.vertices()[0], c - mesh_.vertices()[0]));
       for (const glm::dvec3& p : {a, b, c})
         part.box.add(p);
     }
@@ -167,7 +168,8 @@ class FacetBuilder {
     regionOf_.resize(mesh_.triangles().size());
     for (std::uint32_t t = 0; t < mesh_.triangles().size(); ++t) {
       std::size_t region = regions.size();
-      if (flats_.flatOf[t] != kNoFlat) region = known.try_emplace({flats_.flatOf[t], colourOf(t)}, region).first->second;
+      if (flats_.flatOf[t] != kNoFlat)
+        region = known.try_emplace({flats_.flatOf[t], colourOf(t)}, region).first->second;
       if (region == regions.size()) regions.emplace_back();
       regions[region].push_back(t);
       regionOf_[t] = region;
@@ -208,7 +210,8 @@ class FacetBuilder {
     const glm::dvec3& origin = mesh_.vertices()[loop.front().from];
     double area = 0.0;
     for (const HalfEdge& e : loop)
-      area += glm::dot(normal, glm::cross(mesh_.vertices()[e.from] - origin, mesh_.vertices()[e.to] - origin));
+      area +=
+          glm::dot(normal, glm::cross(mesh_.vertices()[e.from] - origin, mesh_.vertices()[e.to] - origin));
     return area;
   }
 
@@ -218,7 +221,8 @@ class FacetBuilder {
     const FlatPlane& plane = flats_.planes[flats_.flatOf[region.front()]];
     std::vector<Loop> loops = outlineOf(region);
     // The outline comes first; holes run the other way round.
-    std::ranges::sort(loops, std::greater<>(), [&](const Loop& loop) { return sixAreaOf(loop, plane.normal); });
+    std::ranges::sort(loops, std::greater<>(),
+                      [&](const Loop& loop) { return sixAreaOf(loop, plane.normal); });
     if (loops.empty() || !(sixAreaOf(loops.front(), plane.normal) > 0.0)) return false;
     for (std::size_t i = 1; i < loops.size(); ++i)
       if (!(sixAreaOf(loops[i], plane.normal) < 0.0)) return false;
@@ -255,15 +259,16 @@ class FacetBuilder {
       TopoDS_Wire wire;
       builder_.MakeWire(wire);
       for (const HalfEdge& half : loop)
-        builder_.Add(wire, edgeAt(half.edge).Oriented(half.from == mesh_.edges()[half.edge].v0 ? TopAbs_FORWARD
-                                                                                                : TopAbs_REVERSED));
+        builder_.Add(wire, edgeAt(half.edge).Oriented(
+                               half.from == mesh_.edges()[half.edge].v0 ? TopAbs_FORWARD : TopAbs_REVERSED));
       wire.Closed(Standard_True);
       builder_.Add(face, wire);
     }
     ShellPart& part = partOf(triangle);
     if (part.shell.IsNull()) builder_.MakeShell(part.shell);
     builder_.Add(part.shell, face);
-    if (const std::optional<CadColour> colour = colourOf(triangle)) result_.faceColours.emplace_back(face, *colour);
+    if (const std::optional<CadColour> colour = colourOf(triangle))
+      result_.faceColours.emplace_back(face, *colour);
   }
 
   const TopoDS_Vertex& vertexAt(std::uint32_t vertex) {

@@ -38,25 +38,25 @@ constexpr int kLookEveryMs = 20;
 
 /// What messages say about a program's work.
 struct HelperWork {
-  const char* program;   ///< Its file.
-  const char* variable;  ///< Of the environment, which names another.
-  const char* missing;   ///< What it is, for one that is missing.
-  const char* name;      ///< "its ... crashed"
-  const char* smaller;   ///< Remedy if memory, time or room run out.
+  const char* program;    ///< Its file.
+  const char* variable;   ///< Of the environment, which names another.
+  const char* missing;    ///< What it is, for one that is missing.
+  const char* name;       ///< "its ... crashed"
+  const char* smaller;    ///< Remedy if memory, time or room run out.
   const char* otherwise;  ///< Remedy if it fails for a reason that nobody knows.
 };
 constexpr HelperWork kImport{protocol::kProgram,
-                       "NEARFIT_IMPORT",
-                       "the program that reads CAD files is missing",
-                       "import",
-                       "import a part of it, or choose a coarser tessellation",
-                       "the file may be damaged: export it again, or in another format"};
+                             "NEARFIT_IMPORT",
+                             "the program that reads CAD files is missing",
+                             "import",
+                             "import a part of it, or choose a coarser tessellation",
+                             "the file may be damaged: export it again, or in another format"};
 constexpr HelperWork kExport{protocol::kExportProgram,
-                       "NEARFIT_EXPORT",
-                       "the program that writes CAD files is missing",
-                       "export",
-                       "export fewer parts, or parts with fewer triangles",
-                       "export fewer parts to find the one that fails, or in another format"};
+                             "NEARFIT_EXPORT",
+                             "the program that writes CAD files is missing",
+                             "export",
+                             "export fewer parts, or parts with fewer triangles",
+                             "export fewer parts to find the one that fails, or in another format"};
 
 [[noreturn]] void throwSystemError(const std::string& where, const char* problem, int error) {
   throw FileError(where, fmt::format("{}: {}", problem, std::system_category().message(error)),
@@ -313,18 +313,19 @@ void checkEnd(int status, const ImportMessages& messages, const std::filesystem:
     throw FileError(file.string(), fmt::format("its {} needs more memory than it may have", work.name),
                     memoryRemedy);
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
-    throw FileError(file.string(), fmt::format("its {} took too much processor time and was ended", work.name),
+    throw FileError(file.string(),
+                    fmt::format("its {} took too much processor time and was ended", work.name),
                     work.smaller);
   }
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
     throw FileError(file.string(),
                     fmt::format("its {} was killed, as the system does when memory runs out", work.name),
                     memoryRemedy);
-  throw FileError(
-      file.string(),
-      WIFSIGNALED(status) ? fmt::format("its {} crashed (signal {})", work.name, WTERMSIG(status))
-                          : fmt::format("its {} failed (exit code {})", work.name, WEXITSTATUS(status)),
-      work.otherwise);
+  throw FileError(file.string(),
+                  WIFSIGNALED(status)
+                      ? fmt::format("its {} crashed (signal {})", work.name, WTERMSIG(status))
+                      : fmt::format("its {} failed (exit code {})", work.name, WEXITSTATUS(status)),
+                  work.otherwise);
 }
 
 /// All of the result file, whose writer has ended.

@@ -36,8 +36,9 @@ void checkStepSource(const StepSource& source) {
 }
 
 void checkStepRequest(const StepRequest& request) {
-  requireIn(!request.name.empty() && request.name.size() <= kMaxStepNameBytes && isPrintableUtf8(request.name),
-            "name", "it is empty, too long or no printable text");
+  requireIn(
+      !request.name.empty() && request.name.size() <= kMaxStepNameBytes && isPrintableUtf8(request.name),
+      "name", "it is empty, too long or no printable text");
   requireIn(request.sources.size() == request.document.shapes.size(), "sources",
             "there is not one for each shape");
   for (const std::optional<StepSource>& source : request.sources)

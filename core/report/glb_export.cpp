@@ -187,11 +187,11 @@ class GlbDocument {
     const auto [at, isNew] =
         materialAt_.try_emplace({colour, opacity, isOpen}, static_cast<int>(materials_.size()));
     if (!isNew) return at->second;
-    Json material = {{"pbrMetallicRoughness",
-                      {{"baseColorFactor",
-                        {linearOf(colour[0]), linearOf(colour[1]), linearOf(colour[2]), opacity}},
-                       {"metallicFactor", 0.0},
-                       {"roughnessFactor", kGlbRoughness}}}};
+    Json material = {
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor", {linearOf(colour[0]), linearOf(colour[1]), linearOf(colour[2]), opacity}},
+          {"metallicFactor", 0.0},
+          {"roughnessFactor", kGlbRoughness}}}};
     if (opacity < 1.0) material["alphaMode"] = "BLEND";
     if (isOpen) material["doubleSided"] = true;
     materials_.push_back(std::move(material));
@@ -297,8 +297,7 @@ MeshExportSize exportGlb(const Scene& scene, std::span<const Scene::PartPtr> par
   const std::string name = assemblyName(file);
   GlbDocument document(tree, geometries, name);
   const std::string json = document.text();
-  const std::uint64_t total =
-      kGlbHeadBytes + 2 * kChunkHeadBytes + json.size() + document.binaryBytes();
+  const std::uint64_t total = kGlbHeadBytes + 2 * kChunkHeadBytes + json.size() + document.binaryBytes();
   if (total > kMaxGlbBytes)
     throw UsageError("glTF export", "its triangles are more than a file of 4 GiB can hold",
                      "export fewer parts at a time");

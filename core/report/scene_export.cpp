@@ -20,9 +20,10 @@ namespace nearfit {
 namespace {
 
 /// Kinds that an extension stands for.
-constexpr std::array kKinds = {ExportKind::PlacementJson, ExportKind::PlacementCsv, ExportKind::MeshStl,
-                               ExportKind::MeshObj,       ExportKind::MeshPly,      ExportKind::AssemblyGlb,
-                               ExportKind::AssemblyThreeMf, ExportKind::AssemblyUrdf, ExportKind::AssemblyStep};
+constexpr std::array kKinds = {
+    ExportKind::PlacementJson,   ExportKind::PlacementCsv, ExportKind::MeshStl,
+    ExportKind::MeshObj,         ExportKind::MeshPly,      ExportKind::AssemblyGlb,
+    ExportKind::AssemblyThreeMf, ExportKind::AssemblyUrdf, ExportKind::AssemblyStep};
 /// Another extension of STEP files.
 constexpr std::string_view kShortStep = "stp";
 

@@ -54,7 +54,7 @@ struct SceneExport {
   double metresPerUnit = 1e-3;  ///< Unit of the numbers in the file [m]; see hasUnitOfChoice().
   /// Parts of a mesh or an assembly; empty: all visible ones. Placements have all parts.
   std::vector<PartId> only;
-  MapExport map;                ///< For a map of clearance or its histogram.
+  MapExport map;                          ///< For a map of clearance or its histogram.
   StepSchema schema = StepSchema::Ap214;  ///< Of a STEP file.
 };
 

@@ -94,8 +94,9 @@ class NodePlacer {
 
   const AssemblyTree& tree_;
   std::vector<CadNode> nodes_;
-  std::vector<std::int32_t> nodeAt_;  ///< By node of the tree; of one that is left out that of the group around it.
-  std::vector<std::size_t> levels_;   ///< By node of the document.
+  std::vector<std::int32_t>
+      nodeAt_;  ///< By node of the tree; of one that is left out that of the group around it.
+  std::vector<std::size_t> levels_;  ///< By node of the document.
 };
 
 }  // namespace
@@ -128,9 +129,9 @@ StepExport exportStep(const Scene& scene, std::span<const Scene::PartPtr> parts,
   checkReplaceable(file);
   try {
     std::vector<std::byte> request;
-    writeStepRequest(stepRequest(scene, parts, schema, assemblyName(file)), [&](std::span<const std::byte> more) {
-      request.insert(request.end(), more.begin(), more.end());
-    });
+    writeStepRequest(
+        stepRequest(scene, parts, schema, assemblyName(file)),
+        [&](std::span<const std::byte> more) { request.insert(request.end(), more.begin(), more.end()); });
     const std::vector<std::byte> result =
         runExporter(exportProgram(), file, request, {kStepSilence}, stageCallback(progress, 0.0, kStepMade));
     const StepResult made = readStepResult(result);

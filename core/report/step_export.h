@@ -15,7 +15,8 @@ namespace nearfit {
 /// What a STEP file holds.
 struct StepExport {
   std::uint64_t bytes = 0;
-  std::vector<std::string> notes;  ///< Sentences, such as which parts are facets because their file has changed.
+  std::vector<std::string>
+      notes;  ///< Sentences, such as which parts are facets because their file has changed.
 };
 
 /// Writes parts as a STEP assembly in millimetres by the program nearfit-export, in a process of its own, atomically.

@@ -96,7 +96,8 @@ class UrdfText {
   UrdfText(const AssemblyTree& tree, const fs::path& file, const std::vector<fs::path>& meshes)
       : tree_(tree), meshes_(meshes), links_(kMaxLinkNameBytes), joints_(kMaxLinkNameBytes) {
     add("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<!-- Nearfit " NEARFIT_VERSION "; metres, radians, kilograms -->\n"
+        "<!-- Nearfit " NEARFIT_VERSION
+        "; metres, radians, kilograms -->\n"
         "<robot name=\"{}\">\n",
         xmlText(assemblyName(file)));
   }
@@ -139,7 +140,8 @@ class UrdfText {
       const auto [at, isNew] = materials_.emplace(paint, materials_.size() + 1);
       if (!isNew) continue;
       const auto& [r, g, b, a] = paint;
-      add("  <material name=\"colour {}\"><color rgba=\"{} {} {} {}\"/></material>\n", at->second, r, g, b, a);
+      add("  <material name=\"colour {}\"><color rgba=\"{} {} {} {}\"/></material>\n", at->second, r, g, b,
+          a);
     }
   }
 
@@ -205,9 +207,11 @@ std::array<double, 3> rollPitchYaw(const glm::dquat& q) {
   // and cos(pitch / 2 + pi / 4) times cosine and sine of half of yaw - roll and of yaw + roll.
   const double cosDifference = q.w + q.y, sinDifference = q.z - q.x;
   const double cosSum = q.w - q.y, sinSum = q.z + q.x;
-  const double pitch = 2.0 * std::atan2(std::hypot(cosDifference, sinDifference), std::hypot(cosSum, sinSum)) -
-                       std::numbers::pi / 2.0;
-  const double halfSum = std::atan2(sinSum, cosSum), halfDifference = std::atan2(sinDifference, cosDifference);
+  const double pitch =
+      2.0 * std::atan2(std::hypot(cosDifference, sinDifference), std::hypot(cosSum, sinSum)) -
+      std::numbers::pi / 2.0;
+  const double halfSum = std::atan2(sinSum, cosSum),
+               halfDifference = std::atan2(sinDifference, cosDifference);
   return {withinTurn(halfSum - halfDifference), pitch, withinTurn(halfSum + halfDifference)};
 }
 

@@ -28,10 +28,10 @@ namespace nearfit::assembly_export_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 using test::imported;
 using test::importModel;
 using test::ScopedVariable;
+using testing::HasSubstr;
 
 /// The character of a code point, in UTF-8.
 std::string utf8Of(std::uint32_t code) {
@@ -230,8 +230,7 @@ TEST_F(AssemblyExport, APlateWithAHoleIsAPolygonWithAHole) {
 TEST_F(AssemblyExport, ACavityIsAVoidOfItsSolidAndShellsApartAreSolids) {
   const TriangleMesh outer = test::boxMesh(glm::dvec3(0.1));
   const TriangleMesh hollow = test::joined(outer, test::turned(test::boxMesh(glm::dvec3(0.05))));
-  const TriangleMesh two =
-      test::joined(hollow, test::boxMesh(glm::dvec3(0.02), glm::dvec3(0.5, 0.0, 0.0)));
+  const TriangleMesh two = test::joined(hollow, test::boxMesh(glm::dvec3(0.02), glm::dvec3(0.5, 0.0, 0.0)));
   Scene scene;
   scene.add(test::partOf(test::solidGeometryOf(two), "Hollow"));
   write(scene, "hollow.step");
@@ -251,7 +250,8 @@ TEST_F(AssemblyExport, TwoPartsAtOnePlaceStayTwo) {
 }
 
 TEST_F(AssemblyExport, PartsOfAStepFileKeepTheirExactSurfaces) {
-  for (const char* name : {"bracket.step", "assembly_ap242.step", "assembly_inch.step", "two_solids.step", "box.igs"}) {
+  for (const char* name :
+       {"bracket.step", "assembly_ap242.step", "assembly_inch.step", "two_solids.step", "box.igs"}) {
     const Scene scene = sceneOf(importModel(name));
     EXPECT_TRUE(write(scene, "again.step").empty()) << name;
     const CadDocument document = imported(file_);
@@ -362,15 +362,20 @@ TEST_F(AssemblyExport, UrdfIsReadByUrdfdom) {
 }
 
 TEST_F(AssemblyExport, TheCommandLineWritesStepOfBothSchemas) {
-  const std::string scene = (folder_.path() / "s.nearfit").string(), out = (folder_.path() / "o.stp").string();
+  const std::string scene = (folder_.path() / "s.nearfit").string(),
+                    out = (folder_.path() / "o.stp").string();
   const ScopedVariable importer("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM),
       exporter("NEARFIT_EXPORT", NEARFIT_EXPORT_PROGRAM);
-  ASSERT_EQ(test::runCli({"scene", "new", scene, "--import", importModel("assembly_ap242.step").string()}).exitCode, 0);
+  ASSERT_EQ(
+      test::runCli({"scene", "new", scene, "--import", importModel("assembly_ap242.step").string()}).exitCode,
+      0);
   ASSERT_EQ(test::runCli({"export", scene, "-o", out}).exitCode, 0);
   EXPECT_THAT(test::readBytes(out), HasSubstr("AUTOMOTIVE_DESIGN"));
   ASSERT_EQ(test::runCli({"export", scene, "-o", out, "--schema", "ap242"}).exitCode, 0);
   EXPECT_THAT(test::readBytes(out), HasSubstr("AP242"));
-  EXPECT_EQ(test::runCli({"export", scene, "-o", (folder_.path() / "o.glb").string(), "--schema", "ap242"}).exitCode, 2);
+  EXPECT_EQ(test::runCli({"export", scene, "-o", (folder_.path() / "o.glb").string(), "--schema", "ap242"})
+                .exitCode,
+            2);
 }
 
 }  // namespace

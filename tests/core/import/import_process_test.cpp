@@ -84,10 +84,10 @@ TEST_F(ImportProcess, ItGetsTheFileAndTheOptionsAndNoOtherDescriptors) {
 
 TEST_F(ImportProcess, AnExporterGetsItsRequestAndNoOtherDescriptors) {
   const std::string request(100'000, 'r');
-  const std::vector<std::byte> result = runExporter(
-      script("cat <&5 >&3; echo \"$@\" > '" + (folder_.path() / "arguments").string() +
-             "'; ls /proc/self/fd | tr '\\n' ' ' > '" + (folder_.path() / "open").string() + "'"),
-      folder_.path() / "out.step", std::as_bytes(std::span(request)), {20.0}, {});
+  const std::vector<std::byte> result =
+      runExporter(script("cat <&5 >&3; echo \"$@\" > '" + (folder_.path() / "arguments").string() +
+                         "'; ls /proc/self/fd | tr '\\n' ' ' > '" + (folder_.path() / "open").string() + "'"),
+                  folder_.path() / "out.step", std::as_bytes(std::span(request)), {20.0}, {});
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(result.data()), result.size()), request);
   EXPECT_EQ(test::readBytes(folder_.path() / "arguments"), "\n");
   EXPECT_EQ(test::readBytes(folder_.path() / "open"), "0 1 2 3 4 5 6 ");

@@ -37,8 +37,8 @@ StepRequest example() {
 
 std::vector<std::byte> bytesOf(const StepRequest& request) {
   std::vector<std::byte> bytes;
-  writeStepRequest(request,
-                   [&](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); });
+  writeStepRequest(
+      request, [&](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); });
   return bytes;
 }
 
@@ -74,8 +74,8 @@ TEST(StepRequest, WhatContradictsItselfIsRefused) {
   expectRefused([](StepRequest& r) { r.sources[0]->sha256 = "12"; }, "SHA-256");
   expectRefused([](StepRequest& r) { r.sources[0]->key.clear(); }, "key");
   expectRefused([](StepRequest& r) { r.sources[0]->metresPerUnit = 0.0; }, "unit");
-  expectRefused([](StepRequest& r) { r.sources[0]->metresPerUnit = std::numeric_limits<double>::quiet_NaN(); },
-                "unit");
+  expectRefused(
+      [](StepRequest& r) { r.sources[0]->metresPerUnit = std::numeric_limits<double>::quiet_NaN(); }, "unit");
   expectRefused([](StepRequest& r) { r.document.nodes[0].shape = 2; }, "does not exist");
 }
 
@@ -96,8 +96,9 @@ TEST(StepRequest, BytesThatAreCutOffOrChangedAreRefusedOrReadAsARequest) {
 
 TEST(StepRequest, AResultIsItsNotesAndTheFile) {
   std::vector<std::byte> bytes;
-  writeStepNotes({"One.", "Two\x1B."},
-                 [&](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); });
+  writeStepNotes({"One.", "Two\x1B."}, [&](std::span<const std::byte> more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+  });
   EXPECT_THROW(readStepResult(bytes), Error) << "no file";
   for (const char c : std::string("ISO-10303-21;"))
     bytes.push_back(static_cast<std::byte>(c));

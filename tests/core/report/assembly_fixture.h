@@ -14,7 +14,8 @@
 namespace nearfit::test {
 
 /// Names that formats might stumble over.
-inline const char* const kHostileName = "a<b>&\"c\" 'd' \\X2\\00E9\\X0\\ \xC3\xA9\xE2\x82\xAC \xF0\x9F\x94\xA9 ]]> %41/../x";
+inline const char* const kHostileName =
+    "a<b>&\"c\" 'd' \\X2\\00E9\\X0\\ \xC3\xA9\xE2\x82\xAC \xF0\x9F\x94\xA9 ]]> %41/../x";
 
 /// A scene with two instances of a ring, one of them in two groups within each other, a box with two coloured faces, an
 /// open square, and a hidden part.
@@ -78,10 +79,22 @@ inline double differenceOf(const glm::dmat4& a, const glm::dmat4& b) {
 inline glm::dmat4 matrixOf(const RigidTransform& pose) {
   const double w = pose.rotation.w, x = pose.rotation.x, y = pose.rotation.y, z = pose.rotation.z;
   const glm::dvec3& t = pose.translation;
-  return {1 - 2 * (y * y + z * z), 2 * (x * y + z * w),     2 * (x * z - y * w),     0,
-          2 * (x * y - z * w),     1 - 2 * (x * x + z * z), 2 * (y * z + x * w),     0,
-          2 * (x * z + y * w),     2 * (y * z - x * w),     1 - 2 * (x * x + y * y), 0,
-          t.x,                     t.y,                     t.z,                     1};
+  return {1 - 2 * (y * y + z * z),
+          2 * (x * y + z * w),
+          2 * (x * z - y * w),
+          0,
+          2 * (x * y - z * w),
+          1 - 2 * (x * x + z * z),
+          2 * (y * z + x * w),
+          0,
+          2 * (x * z + y * w),
+          2 * (y * z - x * w),
+          1 - 2 * (x * x + y * y),
+          0,
+          t.x,
+          t.y,
+          t.z,
+          1};
 }
 
 }  // namespace nearfit::test

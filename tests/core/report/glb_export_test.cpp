@@ -82,9 +82,7 @@ struct Glb {
                           : valueAt<std::uint32_t>(binary, begin + 4 * i);
     return values;
   }
-  const json& meshOf(const json& node) const {
-    return document["meshes"][node["mesh"].get<std::size_t>()];
-  }
+  const json& meshOf(const json& node) const { return document["meshes"][node["mesh"].get<std::size_t>()]; }
   const json& nodeNamed(const std::string& name) const {
     for (const json& node : document["nodes"])
       if (node["name"] == name) return node;
@@ -191,7 +189,8 @@ TEST_F(GlbExport, BoundsAreThoseOfThePositionsAndNormalsAreUnitAndOutward) {
       }
       const auto indices = glb.indices(primitive["indices"]);
       for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const glm::vec3 a = positions[indices[i]], b = positions[indices[i + 1]], c = positions[indices[i + 2]];
+        const glm::vec3 a = positions[indices[i]], b = positions[indices[i + 1]],
+                        c = positions[indices[i + 2]];
         for (std::size_t k = 0; k < 3; ++k) {
           const glm::vec3 n = normals[indices[i + k]];
           EXPECT_NEAR(glm::length(n), 1.0F, 1e-5F);

@@ -96,9 +96,9 @@ struct Model {
   void place(const Placed& placed, const glm::dmat4& outer, const std::string& group) {
     const Object& object = objects.at(placed.object);
     const glm::dmat4 map = outer * placed.map;
-    const bool isWrapper =
-        object.components.size() == 1 && !objects.at(object.components[0].object).vertices.empty() &&
-        object.components[0].map == glm::dmat4(1.0);
+    const bool isWrapper = object.components.size() == 1 &&
+                           !objects.at(object.components[0].object).vertices.empty() &&
+                           object.components[0].map == glm::dmat4(1.0);
     if (object.components.empty() || isWrapper) {
       const int mesh = isWrapper ? object.components[0].object : placed.object;
       EXPECT_TRUE(parts.emplace(object.name, Found{map, group, mesh}).second);

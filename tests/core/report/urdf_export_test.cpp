@@ -78,9 +78,10 @@ class UrdfExportTest : public ::testing::Test {
   /// By child link.
   std::map<std::string, JointOfFile> joints() const {
     std::map<std::string, JointOfFile> joints;
-    for (const std::vector<std::string>& m : matchesOf(
-             text_, "<joint name=\"[^\"]*\" type=\"fixed\">(<origin xyz=\"([^\"]*)\" rpy=\"([^\"]*)\"/>)?"
-                    "<parent link=\"([^\"]*)\"/><child link=\"([^\"]*)\"/></joint>")) {
+    for (const std::vector<std::string>& m :
+         matchesOf(text_,
+                   "<joint name=\"[^\"]*\" type=\"fixed\">(<origin xyz=\"([^\"]*)\" rpy=\"([^\"]*)\"/>)?"
+                   "<parent link=\"([^\"]*)\"/><child link=\"([^\"]*)\"/></joint>")) {
       JointOfFile joint{unescaped(m[4]), glm::dmat4(1.0)};
       if (!m[1].empty()) joint.parentFromChild = matrixOf(vectorOf(m[2]), vectorOf(m[3]));
       EXPECT_TRUE(joints.emplace(unescaped(m[5]), joint).second) << "two joints to " << m[5];
@@ -176,10 +177,11 @@ TEST_F(UrdfExportTest, MassIsWrittenWhereADensityIsSetAndTheMeshHasAVolume) {
   square.density = 2000.0;
   model_.scene.replace(square);
   write();
-  const auto numbers = matchesOf(linkOf("Box"),
-                                 "<inertial><origin xyz=\"([^\"]*)\" rpy=\"0 0 0\"/><mass value=\"([^\"]*)\"/>"
-                                 "<inertia ixx=\"([^\"]*)\" ixy=\"([^\"]*)\" ixz=\"([^\"]*)\" iyy=\"([^\"]*)\" "
-                                 "iyz=\"([^\"]*)\" izz=\"([^\"]*)\"/></inertial>");
+  const auto numbers =
+      matchesOf(linkOf("Box"),
+                "<inertial><origin xyz=\"([^\"]*)\" rpy=\"0 0 0\"/><mass value=\"([^\"]*)\"/>"
+                "<inertia ixx=\"([^\"]*)\" ixy=\"([^\"]*)\" ixz=\"([^\"]*)\" iyy=\"([^\"]*)\" "
+                "iyz=\"([^\"]*)\" izz=\"([^\"]*)\"/></inertial>");
   ASSERT_EQ(numbers.size(), 1U);
   // 0.1 by 0.2 by 0.3 m.
   const double mass = 12.0;

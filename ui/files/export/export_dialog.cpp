@@ -180,12 +180,14 @@ QString ExportDialog::meshSummary(MeshFileKind kind) const {
 QString ExportDialog::assemblySummary(ExportKind kind) const {
   const auto parts = chosenParts(scene_, choice().only);
   if (parts.empty()) return tr("Nothing: no part is visible.");
-  const QString text = tr("%1 with their groups, names, colours and poses. Parts with the same mesh share it.")
-                           .arg(partsText(parts.size())) +
-                       QChar(' ');
+  const QString text =
+      tr("%1 with their groups, names, colours and poses. Parts with the same mesh share it.")
+          .arg(partsText(parts.size())) +
+      QChar(' ');
   switch (kind) {
     case ExportKind::AssemblyStep:
-      return text + tr("In mm. Parts of STEP, IGES and BREP files have their exact surfaces, if their file is unchanged "
+      return text + tr("In mm. Parts of STEP, IGES and BREP files have their exact surfaces, if their file "
+                       "is unchanged "
                        "and their mesh not repaired; others are planar facets.");
     case ExportKind::AssemblyGlb:
       return text + tr("In metres, y up as the format demands; one file, vertices in single precision.");
@@ -193,8 +195,9 @@ QString ExportDialog::assemblySummary(ExportKind kind) const {
       return text + tr("In %1; parts of one mesh in several colours have copies of it.")
                         .arg(QLatin1String(kUnits[static_cast<std::size_t>(unit_->currentIndex())].sign));
     default:
-      return text + tr("In metres; each part is a link on a fixed joint. Meshes are STL files in a folder beside "
-                       "the file. Mass and inertia where a density is set and the mesh has a volume.");
+      return text +
+             tr("In metres; each part is a link on a fixed joint. Meshes are STL files in a folder beside "
+                "the file. Mass and inertia where a density is set and the mesh has a volume.");
   }
 }
 

@@ -41,10 +41,11 @@ Exporter::Exporter(Session& session, const Selection& selection, const SceneWork
       work_(work),
       poseOfMoving_(std::move(poseOfMoving)),
       window_(window),
-      export_(makeAction(
-          this, "exportPlacement", tr("&Export…"), QStringLiteral("export"), QStringLiteral("Ctrl+E"),
-          tr("Export the poses of the parts (JSON, CSV), the parts as one mesh or as an assembly, or a map of "
-             "clearance"))),
+      export_(makeAction(this, "exportPlacement", tr("&Export…"), QStringLiteral("export"),
+                         QStringLiteral("Ctrl+E"),
+                         tr("Export the poses of the parts (JSON, CSV), the parts as one mesh or as an "
+                            "assembly, or a map of "
+                            "clearance"))),
       copy_(makeAction(this, "copyPlacement", tr("&Copy placement"), QStringLiteral("copy"),
                        QStringLiteral("Ctrl+Shift+C"))) {
   copy_->setToolTip(tr("Copy the selected part's placement as a 4x4 matrix by rows, in metres"));
