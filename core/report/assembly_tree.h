@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,8 +25,8 @@ struct AssemblyTree {
   std::vector<std::uint32_t> uses;          ///< By geometry: number of its parts; 1 or more.
 };
 
-/// The tree of these parts, groups without any of them left out. Parts share a geometry that came from the same bytes,
-/// unit, shape, tessellation and repairs. O(n log n). Throws UsageError if there are no parts.
+/// The tree of these parts, groups without any of them left out. Parts share a geometry also if it was loaded several
+/// times. Throws UsageError if there are no parts.
 /// @param parts  Of the scene, with geometry; see chosenParts().
 AssemblyTree assemblyTree(const Scene& scene, std::span<const Scene::PartPtr> parts);
 

@@ -44,7 +44,7 @@ struct AssemblyScene {
     boxPart.colour = {0.5F, 0.5F, 0.5F};
     boxPart.group = inner;
     box = scene.add(boxPart);
-    square = scene.add(partOf(geometryOf(squareMesh(0.1, 3)), "Square", pose()));
+    square = scene.add(partOf(solidGeometryOf(squareMesh(0.1, 3)), "Square", pose()));
     Part hidden = partOf(geometryOf(boxMesh(glm::dvec3(1.0))), "Hidden");
     hidden.isVisible = false;
     scene.add(hidden);
