@@ -17,7 +17,8 @@ namespace nearfit::cli {
 namespace {
 
 struct ExportOptions {
-  std::string scene, out, unit = "mm";
+  std::string scene, out, unit = "mm", schema = "ap214";
+  bool hasUnit = false, hasSchema = false;
   std::vector<std::string> parts;
 };
 
@@ -28,7 +29,14 @@ constexpr const char* kExportFooter =
     "  .stl   the parts as one mesh in the world frame, binary, single precision\n"
     "  .obj   the same in double precision, each part an object and a group of its name\n"
     "  .ply   the same, binary, in double precision, with the parts' colours\n"
-    "A mesh contains all visible parts, or those named by --part. An existing OUT is replaced.\n"
+    "  .step  the parts as an assembly with groups, names, colours and poses, in mm: exact surfaces for "
+    "parts of STEP,\n"
+    "         IGES and BREP files that are unchanged, facets for others; also .stp\n"
+    "  .glb   the same as glTF 2.0, metres, y up\n"
+    "  .3mf   the same as 3MF, in the unit of --unit: um, mm, cm, in, ft or m\n"
+    "  .urdf  the same as a robot of fixed joints, metres, with its meshes in OUT_meshes\n"
+    "A mesh or an assembly contains all visible parts, or those named by --part. An existing OUT is "
+    "replaced.\n"
     "Example: nearfit-cli export fit.nearfit fit.stl --unit mm --part Peg";
 
 std::vector<PartId> partsNamed(const Scene& scene, const std::vector<std::string>& names) {
@@ -46,10 +54,17 @@ void runExport(const ExportOptions& options) {
   const auto kind = exportKindOf(options.out);
   if (!kind)
     throw UsageError(options.out, "its suffix is not that of a known format",
-                     "use .json, .csv, .stl, .obj or .ply");
-  if (!meshKindOf(*kind) && !options.parts.empty())
+                     "use .json, .csv, .stl, .obj, .ply, .step, .glb, .3mf or .urdf");
+  if (!hasChosenParts(*kind) && !options.parts.empty())
     throw UsageError("--part", "a placement always has all parts", "leave it out, or write a mesh");
-  SceneExport what{*kind, parseUnit(options.unit), {}, {}};
+  if (isAssembly(*kind) && !hasUnitOfChoice(*kind) && options.hasUnit)
+    throw UsageError("--unit", "this format has a unit of its own", "leave it out");
+  if (*kind != ExportKind::AssemblyStep && options.hasSchema)
+    throw UsageError("--schema", "only STEP files have one", "leave it out");
+  SceneExport what;
+  what.kind = *kind;
+  what.metresPerUnit = parseUnit(options.unit);
+  what.schema = options.schema == "ap242" ? StepSchema::Ap242 : StepSchema::Ap214;
   const std::filesystem::path sceneFile = options.scene;
   checkTarget(options.out, std::span(&sceneFile, 1));
   const Scene scene = readSceneFile(options.scene);
@@ -57,8 +72,11 @@ void runExport(const ExportOptions& options) {
     checkTarget(options.out, std::span(&part->geometry->file, 1));
   what.only = partsNamed(scene, options.parts);
   const Part* moving = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
-  exportScene(scene, moving != nullptr ? moving->worldFromPart : RigidTransform{}, what, options.out);
+  const std::vector<std::string> notes =
+      exportScene(scene, moving != nullptr ? moving->worldFromPart : RigidTransform{}, what, options.out);
   printCacheWarnings();
+  for (const std::string& note : notes)
+    printError("warning: " + note);
   print(oneLine(fmt::format("wrote {}", options.out)) + "\n");
 }
 
@@ -66,19 +84,31 @@ void runExport(const ExportOptions& options) {
 
 void addExportCommand(CLI::App& program) {
   const auto options = std::make_shared<ExportOptions>();
-  CLI::App* command =
-      program.add_subcommand("export", "Exports the poses of a scene's parts, or the parts as one mesh.");
+  CLI::App* command = program.add_subcommand(
+      "export", "Exports the poses of a scene's parts, or the parts as a mesh or an assembly.");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required()->type_name("SCENE");
-  command->add_option("out", options->out, "File to write")->required()->type_name("OUT");
-  command->add_option("--part", options->parts, "For a mesh: name of a part to include; repeat it for more")
+  command->add_option("-o,out", options->out, "File to write")->required()->type_name("OUT");
+  command
+      ->add_option("--part", options->parts,
+                   "For a mesh or an assembly: name of a part to include; repeat it for more")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  command
-      ->add_option("--unit", options->unit,
-                   "Unit of a mesh's coordinates: m, cm, mm, um, in, ft, or a number of metres")
-      ->capture_default_str();
+  CLI::Option* unit =
+      command
+          ->add_option(
+              "--unit", options->unit,
+              "Unit of the coordinates of a mesh or a 3MF file: m, cm, mm, um, in, ft, or a number of metres")
+          ->capture_default_str();
+  CLI::Option* schema =
+      command->add_option("--schema", options->schema, "Schema of a STEP file: ap214 or ap242")
+          ->check(CLI::IsMember({"ap214", "ap242"}, CLI::ignore_case))
+          ->capture_default_str();
   command->footer(kExportFooter);
-  command->callback([options] { runExport(*options); });
+  command->callback([options, unit, schema] {
+    options->hasUnit = unit->count() > 0;
+    options->hasSchema = schema->count() > 0;
+    runExport(*options);
+  });
 }
 
 }  // namespace nearfit::cli

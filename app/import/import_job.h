@@ -27,6 +27,8 @@ ImportOptions parseImportOptions(int argc, char** argv);
 /// Formats of documents.
 enum class DocumentFormat { Step, Iges, Brep, Gltf, ThreeMf, Urdf };
 
+struct ExactShape;
+
 /// A file to read, and what readers share.
 struct ImportJob {
   std::filesystem::path file;  ///< As the user named it: for messages, and to find files beside it.
@@ -37,6 +39,9 @@ struct ImportJob {
   std::string sha256;       ///< Of the file as it is on disk.
   Tessellation tessellation;
   std::vector<std::string> onlyShapes;
+  /// If it is set, it takes the exact shapes of a STEP, IGES or BREP file that are wanted (xcaf_document.h), nothing is
+  /// meshed, and the document that the reader returns is empty.
+  std::function<void(const ExactShape& shape)> takeExact;
   /// Takes the fraction done, and a name of what goes on, for times.
   std::function<void(double fraction)> progress;
   std::function<void(const char* stage)> endStage;

@@ -247,6 +247,10 @@ class XcafReader {
     checkInstances(top);
     for (TDF_LabelSequence::Iterator label(top); label.More(); label.Next())
       place(label.Value(), {});
+    if (job_.takeExact) {
+      giveExact();
+      return {};
+    }
     meshAll();
     if (looseParts_ > 0) {
       builder_.warn(
@@ -472,6 +476,14 @@ class XcafReader {
     piece.identity = loose.shapes.front().TShape().get();
     piece.colour = find(product.colours, piece.identity);
     product.pieces.push_back(std::move(piece));
+  }
+
+  void giveExact() const {
+    for (const PendingShape& pending : pending_) {
+      if (!builder_.isWanted(pending.shape)) continue;
+      job_.takeExact(ExactShape{builder_.keyOf(pending.shape), pending.piece->body, pending.piece->isSolid,
+                                pending.scale * options_.metresPerUnit, pending.product->colours});
+    }
   }
 
   void meshAll() {

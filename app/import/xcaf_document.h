@@ -4,6 +4,7 @@
 
 #include "app/import/document_builder.h"
 #include "app/import/import_job.h"
+#include "app/import/shape_mesher.h"
 
 class Message_ProgressRange;
 class TDocStd_Document;
@@ -19,6 +20,15 @@ struct XcafOptions {
   bool hasUnit = true;
   bool areTriangles = false;  ///< Its shapes hold triangles alone.
   bool sewsFaces = false;     ///< Faces come one by one, and are to be joined where they meet.
+};
+
+/// Geometry of a document before it is meshed. Valid while ImportJob::takeExact runs.
+struct ExactShape {
+  const std::string& key;       ///< CadShape::key of the shape that it would become.
+  const Body& body;             ///< Shells of a solid, or loose shells and faces.
+  bool isSolid = false;         ///< The body is one.
+  double metresPerUnit = 1e-3;  ///< Of its coordinates; negative if its placements mirror it.
+  const ColourTable& colours;   ///< Of its product.
 };
 
 /// Turns an OpenCASCADE document into ours: products are meshed once, however often they are placed. Throws FileError.

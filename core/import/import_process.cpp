@@ -36,6 +36,28 @@ using Clock = std::chrono::steady_clock;
 /// Time between two looks at whether the user cancels: short enough to be felt as at once [ms].
 constexpr int kLookEveryMs = 20;
 
+/// What messages say about a program's work.
+struct HelperWork {
+  const char* program;    ///< Its file.
+  const char* variable;   ///< Of the environment, which names another.
+  const char* missing;    ///< What it is, for one that is missing.
+  const char* name;       ///< "its ... crashed"
+  const char* smaller;    ///< Remedy if memory, time or room run out.
+  const char* otherwise;  ///< Remedy if it fails for a reason that nobody knows.
+};
+constexpr HelperWork kImport{protocol::kProgram,
+                             "NEARFIT_IMPORT",
+                             "the program that reads CAD files is missing",
+                             "import",
+                             "import a part of it, or choose a coarser tessellation",
+                             "the file may be damaged: export it again, or in another format"};
+constexpr HelperWork kExport{protocol::kExportProgram,
+                             "NEARFIT_EXPORT",
+                             "the program that writes CAD files is missing",
+                             "export",
+                             "export fewer parts, or parts with fewer triangles",
+                             "export fewer parts to find the one that fails, or in another format"};
+
 [[noreturn]] void throwSystemError(const std::string& where, const char* problem, int error) {
   throw FileError(where, fmt::format("{}: {}", problem, std::system_category().message(error)),
                   "close other programs and try again");
@@ -61,8 +83,8 @@ class OwnedDescriptor {
 
 /// The descriptor under a number that none of the child's has, so that giving it one overwrites no other; closes the old.
 int movedAside(int descriptor) {
-  if (descriptor < 0 || descriptor > protocol::kMessageDescriptor) return descriptor;
-  const int moved = ::fcntl(descriptor, F_DUPFD_CLOEXEC, protocol::kMessageDescriptor + 1);
+  if (descriptor < 0 || descriptor > protocol::kRequestDescriptor) return descriptor;
+  const int moved = ::fcntl(descriptor, F_DUPFD_CLOEXEC, protocol::kRequestDescriptor + 1);
   const int error = errno;
   ::close(descriptor);
   errno = error;
@@ -129,18 +151,20 @@ std::vector<char*> pointersTo(std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// A running importer. Its destructor kills it and what it started, and waits for its end.
+/// A running importer or exporter. Its destructor kills it and what it started, and waits for its end.
 class ImportChild {
  public:
+  /// @param request  -1: it gets none.
   ImportChild(const std::filesystem::path& program, std::vector<std::string> arguments, int result,
-              int messages) {
+              int messages, int request) {
     SpawnActions actions;
     actions.open(0, O_RDONLY);
     actions.open(1, O_WRONLY);
     actions.open(2, O_WRONLY);
     actions.copy(result, protocol::kResultDescriptor);
     actions.copy(messages, protocol::kMessageDescriptor);
-    actions.closeFrom(protocol::kMessageDescriptor + 1);
+    if (request >= 0) actions.copy(request, protocol::kRequestDescriptor);
+    actions.closeFrom(request >= 0 ? protocol::kRequestDescriptor + 1 : protocol::kMessageDescriptor + 1);
     std::vector<std::string> environment = importEnvironment();
     const SpawnAttributes attributes;
     const int error = ::posix_spawn(&process_, program.c_str(), actions.get(), attributes.get(),
@@ -244,15 +268,15 @@ bool takeMessages(int pipe, ImportMessages& messages) {
   return count > 0;
 }
 
-[[noreturn]] void throwSilent(const std::filesystem::path& file, double seconds) {
+[[noreturn]] void throwSilent(const std::filesystem::path& file, double seconds, const HelperWork& work) {
   throw FileError(file.string(),
-                  fmt::format("its import made no progress for {:.0f} s and was ended", seconds),
-                  "the file may be damaged: export it again, or in another format");
+                  fmt::format("its {} made no progress for {:.0f} s and was ended", work.name, seconds),
+                  work.otherwise);
 }
 
-/// Follows the importer until it ends. Throws if it is cancelled or hangs; the child is then still to be stopped.
+/// Follows the program until it ends. Throws if it is cancelled or hangs; the child is then still to be stopped.
 void follow(const ImportChild& child, int pipe, const std::filesystem::path& file, const ImportLimits& limits,
-            const ProgressCallback& progress, ImportMessages& messages) {
+            const HelperWork& work, const ProgressCallback& progress, ImportMessages& messages) {
   Clock::time_point lastProgress = Clock::now();
   double lastFraction = -1.0;
   // A child of the importer may hold the pipe open for longer than the importer runs.
@@ -266,7 +290,7 @@ void follow(const ImportChild& child, int pipe, const std::filesystem::path& fil
       lastProgress = now;
     }
     if (std::chrono::duration<double>(now - lastProgress).count() > limits.silence)
-      throwSilent(file, limits.silence);
+      throwSilent(file, limits.silence, work);
   }
   // It has ended, or closed its end: what is left in the pipe is all there will be.
   ::fcntl(pipe, F_SETFL, O_NONBLOCK);
@@ -279,42 +303,46 @@ void follow(const ImportChild& child, int pipe, const std::filesystem::path& fil
   }
 }
 
-/// Throws FileError if the importer ended without a result.
-void checkEnd(int status, const ImportMessages& messages, const std::filesystem::path& file) {
-  constexpr const char* kMemoryRemedy =
-      "import a part of it, choose a coarser tessellation, or close other programs";
+/// Throws FileError if the program ended without a result.
+void checkEnd(int status, const ImportMessages& messages, const std::filesystem::path& file,
+              const HelperWork& work) {
+  const std::string memoryRemedy = fmt::format("{}, or close other programs", work.smaller);
   if (WIFEXITED(status) && WEXITSTATUS(status) == protocol::kDone) return;
   if (const std::optional<FileError> failure = messages.failure(file)) throw *failure;
   if (WIFEXITED(status) && WEXITSTATUS(status) == protocol::kOutOfMemory)
-    throw FileError(file.string(), "its import needs more memory than it may have", kMemoryRemedy);
+    throw FileError(file.string(), fmt::format("its {} needs more memory than it may have", work.name),
+                    memoryRemedy);
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
-    throw FileError(file.string(), "its import took too much processor time and was ended",
-                    "import a part of it, or choose a coarser tessellation");
+    throw FileError(file.string(),
+                    fmt::format("its {} took too much processor time and was ended", work.name),
+                    work.smaller);
   }
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
-    throw FileError(file.string(), "its import was killed, as the system does when memory runs out",
-                    kMemoryRemedy);
+    throw FileError(file.string(),
+                    fmt::format("its {} was killed, as the system does when memory runs out", work.name),
+                    memoryRemedy);
   throw FileError(file.string(),
-                  WIFSIGNALED(status) ? fmt::format("its import crashed (signal {})", WTERMSIG(status))
-                                      : fmt::format("its import failed (exit code {})", WEXITSTATUS(status)),
-                  "the file may be damaged: export it again, or in another format");
+                  WIFSIGNALED(status)
+                      ? fmt::format("its {} crashed (signal {})", work.name, WTERMSIG(status))
+                      : fmt::format("its {} failed (exit code {})", work.name, WEXITSTATUS(status)),
+                  work.otherwise);
 }
 
 /// All of the result file, whose writer has ended.
-std::vector<std::byte> readResult(int descriptor, const std::filesystem::path& file) {
+std::vector<std::byte> readResult(int descriptor, const std::filesystem::path& file, const HelperWork& work) {
+  const auto fail = [&](int error) {
+    throwSystemError(file.string(), fmt::format("its {}'s result cannot be read", work.name).c_str(), error);
+  };
   struct ::stat status{};
-  if (::fstat(descriptor, &status) != 0)
-    throwSystemError(file.string(), "its import's result cannot be read", errno);
-  if (static_cast<std::uint64_t>(status.st_size) > kMaxDocumentBytes) {
-    throw FileError(file.string(), "it has too many triangles",
-                    "choose a coarser tessellation, or import a part of it");
-  }
+  if (::fstat(descriptor, &status) != 0) fail(errno);
+  if (static_cast<std::uint64_t>(status.st_size) > kMaxDocumentBytes)
+    throw FileError(file.string(), "it has too many triangles", work.smaller);
   std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
   for (std::size_t done = 0; done < bytes.size();) {
     const ::ssize_t count =
         ::pread(descriptor, bytes.data() + done, bytes.size() - done, static_cast<::off_t>(done));
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) throwSystemError(file.string(), "its import's result cannot be read", errno);
+    if (count <= 0) fail(errno);
     done += static_cast<std::size_t>(count);
   }
   return bytes;
@@ -326,11 +354,11 @@ std::filesystem::path folderOfThisProgram() {
   return program.parent_path();
 }
 
-void checkImportProgram(const std::filesystem::path& program) {
+void checkProgram(const std::filesystem::path& program, const HelperWork& work) {
   struct ::stat status{};
   if (::stat(program.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) {
-    throw FileError(program.string(), "the program that reads CAD files is missing",
-                    "reinstall Nearfit, or build the target nearfit-import");
+    throw FileError(program.string(), work.missing,
+                    fmt::format("reinstall Nearfit, or build the target {}", work.program));
   }
   const std::string distrust =
       status.st_uid == 0 && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0 ? std::string() : distrustOf(status);
@@ -338,54 +366,95 @@ void checkImportProgram(const std::filesystem::path& program) {
     throw FileError(program.string(), distrust, "take its ownership, or reinstall Nearfit");
 }
 
-}  // namespace
-
-std::filesystem::path importProgram() {
+std::filesystem::path programOf(const HelperWork& work) {
   // Set by the user alone: as good as the path to the program that it would start.
-  if (const char* chosen = std::getenv("NEARFIT_IMPORT"); chosen != nullptr && *chosen != '\0') {
-    checkImportProgram(chosen);
+  if (const char* chosen = std::getenv(work.variable); chosen != nullptr && *chosen != '\0') {
+    checkProgram(chosen, work);
     return chosen;
   }
-  const std::filesystem::path program = folderOfThisProgram() / protocol::kProgram;
+  const std::filesystem::path program = folderOfThisProgram() / work.program;
   struct ::stat status{};
-  if (::stat(program.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) checkImportProgram(program);
+  if (::stat(program.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) checkProgram(program, work);
   return program;
 }
 
-std::vector<std::byte> runImporter(const std::filesystem::path& program, const std::filesystem::path& file,
-                                   const std::vector<std::string>& arguments, const ImportLimits& limits,
-                                   const ProgressCallback& progress) {
-  // In memory, without a name: nothing is left behind, whatever ends.
-  const OwnedDescriptor result(movedAside(::memfd_create("nearfit-import", MFD_CLOEXEC)));
-  if (result.get() < 0) throwSystemError(file.string(), "there is no memory for its import", errno);
+/// A file in memory, without a name: nothing is left behind, whatever ends.
+int memoryFile(const std::filesystem::path& file, const HelperWork& work) {
+  const int descriptor = movedAside(::memfd_create("nearfit-helper", MFD_CLOEXEC));
+  if (descriptor < 0)
+    throwSystemError(file.string(), fmt::format("there is no memory for its {}", work.name).c_str(), errno);
+  return descriptor;
+}
+
+void writeRequest(int descriptor, std::span<const std::byte> bytes, const std::filesystem::path& file,
+                  const HelperWork& work) {
+  while (!bytes.empty()) {
+    const ::ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0)
+      throwSystemError(file.string(), fmt::format("there is no memory for its {}", work.name).c_str(), errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+}
+
+/// @param request  Descriptor; -1: none.
+std::vector<std::byte> run(const std::filesystem::path& program, const std::filesystem::path& file,
+                           std::vector<std::string> arguments, int request, const HelperWork& work,
+                           const ImportLimits& limits, const ProgressCallback& progress) {
+  const OwnedDescriptor result(memoryFile(file, work));
   int ends[2] = {-1, -1};
-  if (::pipe2(ends, O_CLOEXEC) != 0) throwSystemError(file.string(), "its import cannot be started", errno);
+  const std::string unstarted = fmt::format("its {} cannot be started", work.name);
+  if (::pipe2(ends, O_CLOEXEC) != 0) throwSystemError(file.string(), unstarted.c_str(), errno);
   const OwnedDescriptor pipe(ends[0]);
   OwnedDescriptor pipeOfChild(movedAside(ends[1]));
-  if (pipeOfChild.get() < 0) throwSystemError(file.string(), "its import cannot be started", errno);
-  std::vector<std::string> all{program.string(), "--result", fmt::format("{}", protocol::kResultDescriptor),
-                               "--messages", fmt::format("{}", protocol::kMessageDescriptor)};
-  all.insert(all.end(), arguments.begin(), arguments.end());
-  all.insert(all.end(), {"--", file.string()});
+  if (pipeOfChild.get() < 0) throwSystemError(file.string(), unstarted.c_str(), errno);
   ImportMessages messages;
   int status = 0;
   {
-    ImportChild child(program, std::move(all), result.get(), pipeOfChild.get());
+    ImportChild child(program, std::move(arguments), result.get(), pipeOfChild.get(), request);
     pipeOfChild.reset();
-    follow(child, pipe.get(), file, limits, progress, messages);
-    // An importer that only closed its end of the pipe is given no more time than one that works.
+    follow(child, pipe.get(), file, limits, work, progress, messages);
+    // One that only closed its end of the pipe is given no more time than one that works.
     const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                                      std::chrono::duration<double>(limits.silence));
     while (!child.hasEnded()) {
       if (progress && !progress(messages.fraction())) throw Cancelled();
-      if (Clock::now() > end) throwSilent(file, limits.silence);
+      if (Clock::now() > end) throwSilent(file, limits.silence, work);
       ::poll(nullptr, 0, kLookEveryMs);
     }
     // Ends also what it may have left running.
     status = child.stop();
   }
-  checkEnd(status, messages, file);
-  return readResult(result.get(), file);
+  checkEnd(status, messages, file, work);
+  return readResult(result.get(), file, work);
+}
+
+}  // namespace
+
+std::filesystem::path importProgram() {
+  return programOf(kImport);
+}
+
+std::filesystem::path exportProgram() {
+  return programOf(kExport);
+}
+
+std::vector<std::byte> runImporter(const std::filesystem::path& program, const std::filesystem::path& file,
+                                   const std::vector<std::string>& arguments, const ImportLimits& limits,
+                                   const ProgressCallback& progress) {
+  std::vector<std::string> all{program.string(), "--result", fmt::format("{}", protocol::kResultDescriptor),
+                               "--messages", fmt::format("{}", protocol::kMessageDescriptor)};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  all.insert(all.end(), {"--", file.string()});
+  return run(program, file, std::move(all), -1, kImport, limits, progress);
+}
+
+std::vector<std::byte> runExporter(const std::filesystem::path& program, const std::filesystem::path& file,
+                                   std::span<const std::byte> request, const ImportLimits& limits,
+                                   const ProgressCallback& progress) {
+  const OwnedDescriptor input(memoryFile(file, kExport));
+  writeRequest(input.get(), request, file, kExport);
+  return run(program, file, {program.string()}, input.get(), kExport, limits, progress);
 }
 
 }  // namespace nearfit

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,11 @@ namespace nearfit {
 /// NEARFIT_IMPORT names, which has to be the user's or the system's and writable by nobody else. Throws FileError.
 std::filesystem::path importProgram();
 
-/// Limits of a run of the importer.
+/// The exporter: nearfit-export in the folder of the running program, or the file that the environment variable
+/// NEARFIT_EXPORT names, as for importProgram(). Throws FileError.
+std::filesystem::path exportProgram();
+
+/// Limits of a run of either program.
 struct ImportLimits {
   double silence = 20.0;  ///< Max time without a sign of progress [s].
 };
@@ -24,6 +29,12 @@ struct ImportLimits {
 /// Throws FileError, also with the importer's own message, and Cancelled.
 std::vector<std::byte> runImporter(const std::filesystem::path& program, const std::filesystem::path& file,
                                    const std::vector<std::string>& arguments, const ImportLimits& limits,
+                                   const ProgressCallback& progress);
+
+/// Runs the exporter on a request and returns what it wrote as its result; otherwise as runImporter().
+/// @param file  To be written by the caller; named in messages.
+std::vector<std::byte> runExporter(const std::filesystem::path& program, const std::filesystem::path& file,
+                                   std::span<const std::byte> request, const ImportLimits& limits,
                                    const ProgressCallback& progress);
 
 }  // namespace nearfit

@@ -2,14 +2,16 @@
 
 #include <string_view>
 
-/// What nearfit-import and the program that starts it agree on.
+/// What nearfit-import and nearfit-export agree on with the program that starts them.
 namespace nearfit::import_protocol {
 
-/// Name of the program, which lies in the folder of the others.
+/// Names of the programs, which lie in the folder of the others.
 constexpr const char* kProgram = "nearfit-import";
+constexpr const char* kExportProgram = "nearfit-export";
 
-/// File descriptors that the importer gets: one to write its result to, and one for messages.
-constexpr int kResultDescriptor = 3, kMessageDescriptor = 4;
+/// File descriptors that they get: one to write the result to, and one for messages; the exporter also one to read its
+/// request from.
+constexpr int kResultDescriptor = 3, kMessageDescriptor = 4, kRequestDescriptor = 5;
 
 /// Messages are lines of fields with a tab between them: kProgress and the fraction done, or kFailure and where, what
 /// is wrong and what to do.

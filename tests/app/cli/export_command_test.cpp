@@ -28,6 +28,20 @@ TEST_F(ExportCommand, TheNameOfTheFileSaysWhatIsWritten) {
   EXPECT_THAT(readBytes(path("a.csv")), HasSubstr("\nCube,"));
 }
 
+TEST_F(ExportCommand, AssembliesAreWrittenWithAllPartsOrThoseNamed) {
+  for (const auto& [name, begin] :
+       {std::pair("d.glb", "glTF"), std::pair("d.3mf", "PK"), std::pair("d.urdf", "<?xml")}) {
+    const auto result = runCli({"export", scene_, "-o", path(name)});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_THAT(readBytes(path(name)), StartsWith(begin));
+  }
+  const std::string robot = readBytes(path("d.urdf"));
+  EXPECT_THAT(robot, HasSubstr("<link name=\"Cube\">"));
+  EXPECT_THAT(robot, HasSubstr("<link name=\"Plate\">"));
+  ASSERT_EQ(runCli({"export", scene_, path("e.urdf"), "--part", "Cube"}).exitCode, 0);
+  EXPECT_THAT(readBytes(path("e.urdf")), Not(HasSubstr("Plate")));
+}
+
 TEST_F(ExportCommand, APartAndAUnitAreChosen) {
   ASSERT_EQ(runCli({"export", scene_, path("b.obj"), "--part", "Cube", "--unit", "m"}).exitCode, 0);
   const ImportedMesh read = importMesh(path("b.obj"), {});
@@ -37,16 +51,19 @@ TEST_F(ExportCommand, APartAndAUnitAreChosen) {
 
 TEST_F(ExportCommand, WhatMakesNoSenseIsWrongUsageAndWritesNothing) {
   for (const auto& arguments :
-       std::vector<std::vector<std::string>>{{"export", scene_, path("c.step")},
+       std::vector<std::vector<std::string>>{{"export", scene_, path("c.dxf")},
                                              {"export", scene_, path("c.stl"), "--part", "Peg"},
                                              {"export", scene_, path("c.json"), "--part", "Cube"},
                                              {"export", scene_, path("c.stl"), "--unit", "parsec"},
+                                             {"export", scene_, path("c.glb"), "--unit", "mm"},
+                                             {"export", scene_, path("c.3mf"), "--unit", "0.5"},
                                              {"export", scene_, path("cube.obj")},
                                              {"clearance", scene_, "--part", "Peg"},
                                              {"clearance", scene_, "--cutoff", "-1"}}) {
     const auto result = runCli(arguments);
     EXPECT_EQ(result.exitCode, 2) << arguments.back();
-    EXPECT_FALSE(std::filesystem::exists(path("c.stl")));
+    for (const char* name : {"c.stl", "c.glb", "c.3mf"})
+      EXPECT_FALSE(std::filesystem::exists(path(name)));
   }
   EXPECT_EQ(importMesh(path("cube.obj"), {}).mesh.triangles().size(), 12U) << "it is not overwritten";
 }

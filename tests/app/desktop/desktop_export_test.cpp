@@ -22,6 +22,7 @@ class DesktopExportTest : public QObject {
   void cancellingWritesNothing();
   void whatCannotBeWrittenIsToldAndNothingIsLost();
   void thePlacementIsCopiedAsAMatrix();
+  void anAssemblyKeepsThePartsApart();
   void aDotInANameIsNoSuffix();
 };
 
@@ -48,6 +49,24 @@ void DesktopExportTest::aMergedMeshHasThePartsWhereTheyAre() {
     QVERIFY(std::abs(read.mesh.bounds().upper.z - 0.145) < 1e-8);
     QVERIFY(std::abs(read.mesh.bounds().lower.z + 0.02) < 1e-8);
   }
+}
+
+void DesktopExportTest::anAssemblyKeepsThePartsApart() {
+  DesktopDriver d;
+  d.addCubes();
+  d.session().movePart(d.partId("moving"), {{1, 0, 0, 0}, {0, 0, 0.1}});
+  const auto file = d.folder.path() / "robot.urdf";
+  QString summary;
+  chooseExport(9, false, &summary);
+  whenModal<QFileDialog>(
+      [&](QFileDialog* dialog) { chooseFile(dialog, QString::fromStdString(file.string())); });
+  pressShortcut(d, Qt::Key_E, Qt::ControlModifier);
+  QTRY_COMPARE(d.window().statusBar()->currentMessage(), QStringLiteral("Exported robot.urdf"));
+  QVERIFY2(summary.contains(QStringLiteral("2 parts with their groups")), qPrintable(summary));
+  const QString text = QString::fromStdString(readBytes(file));
+  QVERIFY2(text.contains(QStringLiteral("<origin xyz=\"0 0 0.1\" rpy=\"0 0 0\"/><parent link=\"world\"/>"
+                                        "<child link=\"moving\"/>")),
+           qPrintable(text));
 }
 
 void DesktopExportTest::onlyTheSelectedPartsAreWrittenWhenAskedFor() {

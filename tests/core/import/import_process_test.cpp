@@ -5,6 +5,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -79,6 +80,28 @@ TEST_F(ImportProcess, ItGetsTheFileAndTheOptionsAndNoOtherDescriptors) {
             "--result 3 --messages 4 --chord 0 -- " + document_.string() + "\n");
   // Those of the shell, and the folder that ls reads.
   EXPECT_EQ(test::readBytes(folder_.path() / "open"), "0 1 2 3 4 5 ");
+}
+
+TEST_F(ImportProcess, AnExporterGetsItsRequestAndNoOtherDescriptors) {
+  const std::string request(100'000, 'r');
+  const std::vector<std::byte> result =
+      runExporter(script("cat <&5 >&3; echo \"$@\" > '" + (folder_.path() / "arguments").string() +
+                         "'; ls /proc/self/fd | tr '\\n' ' ' > '" + (folder_.path() / "open").string() + "'"),
+                  folder_.path() / "out.step", std::as_bytes(std::span(request)), {20.0}, {});
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(result.data()), result.size()), request);
+  EXPECT_EQ(test::readBytes(folder_.path() / "arguments"), "\n");
+  EXPECT_EQ(test::readBytes(folder_.path() / "open"), "0 1 2 3 4 5 6 ");
+}
+
+TEST_F(ImportProcess, WhatAnExporterFailsAtIsCalledAnExport) {
+  try {
+    runExporter(script("kill -SEGV $$"), folder_.path() / "out.step", {}, {20.0}, {});
+    ADD_FAILURE() << "did not fail";
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.where(), (folder_.path() / "out.step").string());
+    EXPECT_THAT(error.problem(), HasSubstr("its export crashed (signal 11)"));
+    EXPECT_THAT(error.remedy(), HasSubstr("export fewer parts"));
+  }
 }
 
 TEST_F(ImportProcess, ProgressIsPassedOnAndNeverFalls) {

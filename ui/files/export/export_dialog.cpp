@@ -79,6 +79,10 @@ void ExportDialog::setUpFields() {
   add(tr("Merged mesh (PLY, with colours)"), ExportKind::MeshPly);
   add(tr("Clearance map (PLY, with distances)"), ExportKind::ClearanceMapPly);
   add(tr("Clearance histogram (CSV)"), ExportKind::ClearanceHistogramCsv);
+  add(tr("Assembly (glTF binary, GLB)"), ExportKind::AssemblyGlb);
+  add(tr("Assembly (3MF)"), ExportKind::AssemblyThreeMf);
+  add(tr("Assembly (URDF, fixed joints)"), ExportKind::AssemblyUrdf);
+  add(tr("Assembly (STEP, AP214)"), ExportKind::AssemblyStep);
   visible_ = new QRadioButton(tr("All &visible"), this);
   chosen_ = new QRadioButton(tr("&Selected (%1)").arg(selected_.size()), this);
   visible_->setObjectName(QStringLiteral("exportVisible"));
@@ -125,8 +129,9 @@ void ExportDialog::remember() const {
 }
 
 SceneExport ExportDialog::choice() const {
-  SceneExport what{
-      static_cast<ExportKind>(kind_->currentData().toInt()), unit_->currentData().toDouble(), {}, {}};
+  SceneExport what;
+  what.kind = static_cast<ExportKind>(kind_->currentData().toInt());
+  what.metresPerUnit = unit_->currentData().toDouble();
   if (chosen_->isChecked()) what.only = selected_;
   what.map = {mapSubject(scene_, selected_), Preferences::clearanceRange(), Preferences::hasNearClearances()};
   return what;
@@ -135,15 +140,19 @@ SceneExport ExportDialog::choice() const {
 void ExportDialog::showSummary() {
   const ExportKind kind = choice().kind;
   const auto mesh = meshKindOf(kind);
+  const bool hasParts = hasChosenParts(kind);
   const bool isMap = kind == ExportKind::ClearanceMapPly || kind == ExportKind::ClearanceHistogramCsv;
   for (QWidget* field : {static_cast<QWidget*>(unit_), static_cast<QWidget*>(unitLabel_)})
-    field->setEnabled(mesh.has_value() || kind == ExportKind::ClearanceMapPly);
+    field->setEnabled(hasUnitOfChoice(kind));
   for (QWidget* field : {static_cast<QWidget*>(partsLabel_), static_cast<QWidget*>(visible_)})
-    field->setEnabled(mesh.has_value());
-  chosen_->setEnabled(mesh.has_value() && !selected_.empty());
-  summary_->setText(mesh ? meshSummary(*mesh) : isMap ? mapSummary() : placementSummary());
+    field->setEnabled(hasParts);
+  chosen_->setEnabled(hasParts && !selected_.empty());
+  summary_->setText(mesh               ? meshSummary(*mesh)
+                    : isAssembly(kind) ? assemblySummary(kind)
+                    : isMap            ? mapSummary()
+                                       : placementSummary());
   const bool hasContent =
-      isMap ? !choice().map.subject.empty() : !mesh || !chosenParts(scene_, choice().only).empty();
+      isMap ? !choice().map.subject.empty() : !hasParts || !chosenParts(scene_, choice().only).empty();
   findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save)->setEnabled(hasContent);
 }
 
@@ -166,6 +175,30 @@ QString ExportDialog::meshSummary(MeshFileKind kind) const {
       break;
   }
   return text + QChar(' ') + tr("Double precision; each part in its colour.");
+}
+
+QString ExportDialog::assemblySummary(ExportKind kind) const {
+  const auto parts = chosenParts(scene_, choice().only);
+  if (parts.empty()) return tr("Nothing: no part is visible.");
+  const QString text =
+      tr("%1 with their groups, names, colours and poses. Parts with the same mesh share it.")
+          .arg(partsText(parts.size())) +
+      QChar(' ');
+  switch (kind) {
+    case ExportKind::AssemblyStep:
+      return text + tr("In mm. Parts of STEP, IGES and BREP files have their exact surfaces, if their file "
+                       "is unchanged "
+                       "and their mesh not repaired; others are planar facets.");
+    case ExportKind::AssemblyGlb:
+      return text + tr("In metres, y up as the format demands; one file, vertices in single precision.");
+    case ExportKind::AssemblyThreeMf:
+      return text + tr("In %1; parts of one mesh in several colours have copies of it.")
+                        .arg(QLatin1String(kUnits[static_cast<std::size_t>(unit_->currentIndex())].sign));
+    default:
+      return text +
+             tr("In metres; each part is a link on a fixed joint. Meshes are STL files in a folder beside "
+                "the file. Mass and inertia where a density is set and the mesh has a volume.");
+  }
 }
 
 QString ExportDialog::mapSummary() const {

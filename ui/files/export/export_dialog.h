@@ -32,6 +32,7 @@ class ExportDialog : public QDialog {
   void remember() const;
   void showSummary();
   QString meshSummary(MeshFileKind kind) const;
+  QString assemblySummary(ExportKind kind) const;
   QString placementSummary() const;
   QString mapSummary() const;
 

@@ -4,7 +4,10 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QFileInfo>
+#include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/report/placement_table.h"
@@ -20,11 +23,11 @@
 namespace nearfit::ui {
 namespace {
 
-/// Returns "placement", "clearance-map", "clearance-histogram" or, for meshes, the scene's name or "parts".
+/// Returns "placement", "clearance-map", "clearance-histogram" or, for meshes and assemblies, the scene's name or "parts".
 QString nameFor(const Session& session, ExportKind kind) {
   if (kind == ExportKind::ClearanceMapPly) return QStringLiteral("clearance-map");
   if (kind == ExportKind::ClearanceHistogramCsv) return QStringLiteral("clearance-histogram");
-  if (!meshKindOf(kind)) return QStringLiteral("placement");
+  if (!hasChosenParts(kind)) return QStringLiteral("placement");
   return session.file().empty() ? QStringLiteral("parts") : fromPath(session.file().stem());
 }
 
@@ -38,9 +41,11 @@ Exporter::Exporter(Session& session, const Selection& selection, const SceneWork
       work_(work),
       poseOfMoving_(std::move(poseOfMoving)),
       window_(window),
-      export_(makeAction(
-          this, "exportPlacement", tr("&Export…"), QStringLiteral("export"), QStringLiteral("Ctrl+E"),
-          tr("Export the poses of the parts (JSON, CSV), the parts as one mesh, or a map of clearance"))),
+      export_(makeAction(this, "exportPlacement", tr("&Export…"), QStringLiteral("export"),
+                         QStringLiteral("Ctrl+E"),
+                         tr("Export the poses of the parts (JSON, CSV), the parts as one mesh or as an "
+                            "assembly, or a map of "
+                            "clearance"))),
       copy_(makeAction(this, "copyPlacement", tr("&Copy placement"), QStringLiteral("copy"),
                        QStringLiteral("Ctrl+Shift+C"))) {
   copy_->setToolTip(tr("Copy the selected part's placement as a 4x4 matrix by rows, in metres"));
@@ -83,13 +88,17 @@ void Exporter::askAndExport(std::optional<ExportKind> kind) {
 }
 
 void Exporter::write(const SceneExport& what, const QString& file) {
-  const auto job = [scene = session_.scene(), pose = poseOfMoving_(), what, path = toPath(file)](
-                       const ProgressCallback& progress) { exportScene(scene, pose, what, path, progress); };
+  // Set by the job, and read once it has ended.
+  const auto notes = std::make_shared<std::vector<std::string>>();
+  const auto job = [scene = session_.scene(), pose = poseOfMoving_(), what, path = toPath(file),
+                    notes](const ProgressCallback& progress) {
+    *notes = exportScene(scene, pose, what, path, progress);
+  };
   const QString name = QFileInfo(file).fileName();
   progress_ = new ProgressDialog(tr("Writing"), tr("Writing %1").arg(name), window_);
   connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
   connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
-  task_.run(job, [this, file, name](const std::exception_ptr& error) {
+  task_.run(job, [this, file, name, notes](const std::exception_ptr& error) {
     delete progress_;
     if (isCancelled(error)) return;
     if (error) {
@@ -97,7 +106,10 @@ void Exporter::write(const SceneExport& what, const QString& file) {
       return;
     }
     Preferences::rememberFolderOf(file);
-    emit noted(tr("Exported %1").arg(name));
+    QString text = tr("Exported %1").arg(name);
+    if (!notes->empty()) text += QStringLiteral(". ") + QString::fromStdString(notes->front());
+    if (notes->size() > 1) text += tr(" (and %1 more)").arg(notes->size() - 1);
+    emit noted(text);
   });
 }
 
