@@ -13,8 +13,8 @@
 #include "core/base/error.h"
 #include "core/proximity/overlap/touching_bodies.h"
 #include "core/proximity/surface/surface_distance.h"
+#include "core/proximity/tracking/lmd_set.h"
 #include "core/report/csv_text.h"
-#include "core/report/lmd_set.h"
 
 namespace nearfit {
 namespace {
