@@ -101,7 +101,7 @@ struct NearPair {
 /// What the finding of a pair depends on: geometries by index, relative pose and allowed interference by their bits.
 using PairKey = std::array<std::uint64_t, 10>;
 
-RigidTransform otherFromPart(const CheckedPart& part, const CheckedPart& other) {
+RigidTransform relativePoseOf(const CheckedPart& part, const CheckedPart& other) {
   return (other.worldFromPart.inverse() * part.worldFromPart).normalized();
 }
 
@@ -229,7 +229,7 @@ class SceneChecker {
 
   PairKey keyOf(const NearPair& pair) const {
     const CheckedPart &part = request_.parts[pair.part], &other = request_.parts[pair.other];
-    const RigidTransform pose = otherFromPart(part, other);
+    const RigidTransform pose = relativePoseOf(part, other);
     const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
     return {shapeOf_.at(part.geometry.get()),
             shapeOf_.at(other.geometry.get()),
@@ -246,7 +246,7 @@ class SceneChecker {
   /// The finding of an example, in the frame of the other part; no value if the parts are clear.
   std::optional<PairFinding> findingOf(const NearPair& pair, CheckWork& work, SharedProgress& shared) {
     const CheckedPart &part = request_.parts[pair.part], &other = request_.parts[pair.other];
-    const RigidTransform pose = otherFromPart(part, other);
+    const RigidTransform pose = relativePoseOf(part, other);
     const double within = std::max(request_.threshold, touchTolerance(*part.geometry, *other.geometry));
     const std::optional<PairSeparation> separation =
         separationOf(*part.geometry, *other.geometry, pose, within, work.scratch);
@@ -384,6 +384,28 @@ SceneCheckRequest sceneCheckRequest(const Scene& scene, double threshold) {
       request.parts.push_back({part->id, {part->name, part->group}, part->geometry, part->worldFromPart});
   }
   return request;
+}
+
+const char* textOf(VolumeProblem problem) noexcept {
+  switch (problem) {
+    case VolumeProblem::None:
+      return "";
+    case VolumeProblem::Open:
+      return "a mesh is not closed";
+    case VolumeProblem::NotManifold:
+      return "edges of a mesh have more than two faces";
+    case VolumeProblem::InsideOut:
+      return "a mesh is inside out";
+    case VolumeProblem::CrossesItself:
+      return "a mesh crosses itself";
+    case VolumeProblem::TooLarge:
+      return "there are too many triangles";
+    case VolumeProblem::Failed:
+      return "its construction failed";
+    case VolumeProblem::Stopped:
+      break;
+  }
+  return "it was stopped";
 }
 
 std::size_t SceneCheck::checkedPairs() const noexcept {

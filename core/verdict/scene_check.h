@@ -105,6 +105,9 @@ struct SceneCheck {
   std::size_t forbidden() const noexcept;
 };
 
+/// The problem in a few words: "a mesh is not closed"; "" for None.
+const char* textOf(VolumeProblem problem) noexcept;
+
 /// Checks each pair of parts: by the exact predicates if they overlap, by distance if they are near. Of clashes it
 /// measures curves, volume and depth.
 ///
