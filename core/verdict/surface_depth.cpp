@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <queue>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -43,8 +44,39 @@ struct SurfacePiece {
   TriangleCorners corners;
   const DepthTarget* target;
   double most;  ///< No point of it is deeper [m].
+  std::uint32_t nearest = NearestPoint::kNone;  ///< Triangle of the target that is nearest to its middle.
   bool operator<(const SurfacePiece& other) const noexcept { return most < other.most; }
 };
+
+/// A convex piece of a plane.
+using SurfacePolygon = std::vector<glm::dvec3>;
+
+/// Parts of a polygon beyond a plane by less than this share of the plane's side are not cut off: rounding.
+constexpr double kSmallestCut = 1e-9;
+
+/// Cuts a polygon along a plane through `point`: what is in front goes to `front`, the rest stays. False if the plane
+/// leaves it whole, to within `slack`.
+bool cutOff(const glm::dvec3& normal, const glm::dvec3& point, double slack, SurfacePolygon& polygon,
+            SurfacePolygon& front) {
+  double lowest = 0.0, highest = 0.0;
+  for (const glm::dvec3& p : polygon) {
+    lowest = std::min(lowest, glm::dot(normal, p - point));
+    highest = std::max(highest, glm::dot(normal, p - point));
+  }
+  if (highest <= slack || lowest >= -slack) return false;
+  SurfacePolygon behind;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const double a = glm::dot(normal, p - point), b = glm::dot(normal, q - point);
+    (a > 0.0 ? front : behind).push_back(p);
+    if ((a > 0.0) == (b > 0.0)) continue;
+    const glm::dvec3 between = p + a / (a - b) * (q - p);
+    front.push_back(between);
+    behind.push_back(between);
+  }
+  polygon = std::move(behind);
+  return true;
+}
 
 class DeepestPoint {
  public:
@@ -97,10 +129,36 @@ class DeepestPoint {
     for (const glm::dvec3& corner : t)
       toNear = std::max(toNear, nearestOnCorners(near, corner).distance);
     piece.most = std::min({piece.most, depth + radius, toNear});
+    piece.nearest = nearest.triangle;
     if (piece.most > least_) pieces_.push(piece);
   }
 
+  /// Cuts a piece where the triangle that is nearest to its middle ends, seen from the side: what is left over that
+  /// triangle has a bound that is hardly more than its depth.
   void split(const SurfacePiece& piece) {
+    const TriangleCorners over = piece.target->corners(piece.nearest);
+    const glm::dvec3 normal = glm::cross(over[1] - over[0], over[2] - over[0]);
+    SurfacePolygon inside(piece.corners.begin(), piece.corners.end());
+    bool isCut = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec3 side = over[(k + 1) % 3] - over[k];
+      const glm::dvec3 across = glm::cross(side, normal);
+      const double length = glm::length(across);
+      if (!(length > 0.0)) continue;
+      SurfacePolygon outside;
+      if (!cutOff(across / length, over[k], kSmallestCut * glm::length(side), inside, outside)) continue;
+      isCut = true;
+      lookAtAll(outside, piece);
+    }
+    isCut ? lookAtAll(inside, piece) : quarter(piece);
+  }
+
+  void lookAtAll(const SurfacePolygon& polygon, const SurfacePiece& whole) {
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+      look({{polygon[0], polygon[i - 1], polygon[i]}, whole.target, whole.most});
+  }
+
+  void quarter(const SurfacePiece& piece) {
     const TriangleCorners& t = piece.corners;
     const std::array<glm::dvec3, 3> middles{0.5 * (t[0] + t[1]), 0.5 * (t[1] + t[2]), 0.5 * (t[2] + t[0])};
     for (const TriangleCorners& part :
