@@ -17,8 +17,9 @@ using Json = nlohmann::json;
 class ClearanceAll : public PlateAndCube {
  protected:
   ClearanceAll() {
-    const auto made = runCli({"scene", "new", clashing_, "--unit", "m", "--part", "Plate=" + path("plate.obj"),
-                              "--part", "Cube=" + path("cube.obj") + "@0,0,0.9,1,0,0,0"});
+    const auto made =
+        runCli({"scene", "new", clashing_, "--unit", "m", "--part", "Plate=" + path("plate.obj"), "--part",
+                "Cube=" + path("cube.obj") + "@0,0,0.9,1,0,0,0"});
     EXPECT_EQ(made.exitCode, 0) << made.err;
   }
   auto check(const std::string& scene, std::vector<std::string> options) {
@@ -68,7 +69,8 @@ TEST_F(ClearanceAll, RulesOfTheCommandLineLeaveOutAndAllow) {
   const auto allowed = check(clashing_, {"--press-fit", "Plate:*=0.11"});
   EXPECT_EQ(allowed.exitCode, 0) << allowed.err;
   EXPECT_THAT(allowed.out, HasSubstr("allowed: press fit of Plate with * up to 0.11 m"));
-  const auto both = check(clashing_, {"--leave-out", "X:Y", "--leave-out", "Plate:Cube", "--leave-out-groups"});
+  const auto both =
+      check(clashing_, {"--leave-out", "X:Y", "--leave-out", "Plate:Cube", "--leave-out-groups"});
   EXPECT_EQ(both.exitCode, 0) << both.err;
   EXPECT_THAT(both.out, HasSubstr("1 left out"));
 }
