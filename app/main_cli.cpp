@@ -13,13 +13,14 @@
 
 namespace {
 
-constexpr int kFailure = 1, kUsage = 2;
+constexpr int kFailure = 1, kUsage = 2, kClash = 3;
 
 constexpr const char* kFooter =
     "nearfit-cli COMMAND --help describes the options and output of a command.\n"
     "Lengths are in metres, forces in newtons, times in seconds unless said otherwise; quaternions are w, x, "
     "y, z.\n"
-    "Exit code: 0 for success, 2 for wrong usage, 1 for any other failure, with one line on stderr.";
+    "Exit code: 0 for success, 2 for wrong usage, 1 for any other failure, with one line on stderr;\n"
+    "3 if clearance --all found a clash that no rule allows.";
 
 int report(const char* message, int exitCode) {
   nearfit::cli::printError(message);
@@ -73,6 +74,8 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const nearfit::cli::ReportedFailure&) {
     return kFailure;
+  } catch (const nearfit::cli::ForbiddenClash&) {
+    return kClash;
   } catch (const nearfit::UsageError& e) {
     return report(e.what(), kUsage);
   } catch (const std::exception& e) {

@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/scene/mesh_unit.h"
 #include "core/scene/scene.h"
+#include "core/text/quantity.h"
 
 namespace nearfit::cli {
 namespace {
@@ -64,6 +65,14 @@ RigidTransform parsePose(const std::string& option, const std::string& text) {
   if (!pose)
     throw UsageError(option, fmt::format("\"{}\" is not a pose", text), std::string("give ") + kPoseHelp);
   return *pose;
+}
+
+double parseLength(const std::string& option, const std::string& text) {
+  try {
+    return evaluateQuantity(text, Unit{{.length = 1}, 1.0});
+  } catch (const UsageError& e) {
+    throw UsageError(option, e.problem(), e.remedy());
+  }
 }
 
 void checkPositive(const std::string& option, double value, bool orZero) {

@@ -36,6 +36,9 @@ std::array<double, Count> parseNumbers(const std::string& option, const std::str
   return numbers;
 }
 
+/// Returns a length in metres, given with a unit or in metres: "0.02mm". Throws UsageError, naming the option.
+double parseLength(const std::string& option, const std::string& text);
+
 /// Throws UsageError if an option's value is not finite or not above zero; `orZero` allows zero.
 void checkPositive(const std::string& option, double value, bool orZero = false);
 

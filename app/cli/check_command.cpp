@@ -19,7 +19,6 @@
 #include "core/report/scene_export.h"
 #include "core/scene/document_load.h"
 #include "core/scene/part_check.h"
-#include "core/text/quantity.h"
 #include "core/text/utf8.h"
 
 namespace nearfit::cli {
@@ -62,12 +61,7 @@ constexpr const char* kCheckFooter =
 
 /// Nullopt for an empty text.
 std::optional<double> lengthOf(const std::string& option, const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  try {
-    return evaluateQuantity(text, Unit{{.length = 1}, 1.0});
-  } catch (const UsageError& e) {
-    throw UsageError(option, e.problem(), e.remedy());
-  }
+  return text.empty() ? std::nullopt : std::optional(parseLength(option, text));
 }
 
 MeshRepairs chosenRepairs(const CheckOptions& options) {

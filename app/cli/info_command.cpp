@@ -15,7 +15,6 @@
 #include "app/cli/joints_text.h"
 #include "app/cli/output.h"
 #include "core/base/error.h"
-#include "core/report/lmd_set.h"
 #include "core/scene/document_load.h"
 #include "core/scene/part_geometry.h"
 #include "core/scene/scene.h"

@@ -35,6 +35,13 @@ class ReportedFailure : public std::exception {
   const char* what() const noexcept override { return "the command failed"; }
 };
 
+/// Thrown by a check that has printed its findings, if a clash that no rule allows is among them: exit code 3, no further
+/// line.
+class ForbiddenClash : public std::exception {
+ public:
+  const char* what() const noexcept override { return "parts clash"; }
+};
+
 /// Calls `report` for each file. One that cannot be read is told on stderr, and the others still follow. Throws
 /// ReportedFailure at the end if there was one.
 void reportEach(std::span<const std::string> files,

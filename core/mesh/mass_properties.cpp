@@ -69,6 +69,10 @@ MassProperties fromBox(OrientedBox box) {
 
 }  // namespace
 
+const char* nameOf(MassBasis basis) noexcept {
+  return basis == MassBasis::VolumeIntegrals ? "volume integrals" : "oriented box";
+}
+
 MassProperties massProperties(const TriangleMesh& mesh) {
   if (const std::optional<MassProperties> exact = fromVolume(mesh)) return *exact;
   return fromBox(orientedBox(mesh));

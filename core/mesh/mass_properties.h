@@ -13,6 +13,9 @@ enum class MassBasis {
   OrientedBox,      ///< The mesh encloses no volume; computed from its oriented bounding box.
 };
 
+/// "volume integrals" or "oriented box".
+const char* nameOf(MassBasis basis) noexcept;
+
 /// Mass properties at unit density (1 kg/m^3), in the mesh's frame.
 struct MassProperties {
   double volume = 0.0;      ///< [m^3]

@@ -13,6 +13,19 @@ namespace nearfit {
 /// Kind of mesh feature.
 enum class FeatureKind : std::uint8_t { Vertex, Edge, Face };
 
+/// "vertex", "edge" or "face".
+inline const char* nameOf(FeatureKind kind) noexcept {
+  switch (kind) {
+    case FeatureKind::Vertex:
+      return "vertex";
+    case FeatureKind::Edge:
+      return "edge";
+    case FeatureKind::Face:
+      break;
+  }
+  return "face";
+}
+
 /// Extent of a flat region, seen along its direction, on two axes: the long axis `axis`, and
 /// direction x `axis`.
 struct RegionExtent {

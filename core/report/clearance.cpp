@@ -11,17 +11,15 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/proximity/overlap/touching_bodies.h"
-#include "core/proximity/surface/surface_distance.h"
+#include "core/proximity/tracking/lmd_set.h"
 #include "core/report/csv_text.h"
-#include "core/report/lmd_set.h"
+#include "core/verdict/pair_separation.h"
 
 namespace nearfit {
 namespace {
 
 /// Max minima counted per pair; for more, a table only needs "more than".
 constexpr std::size_t kMaxMinima = 10'000;
-constexpr std::uint64_t kAnyWork = std::numeric_limits<std::uint64_t>::max();
 
 struct Workspace {
   LmdCollector collector{kMaxMinima};
@@ -34,19 +32,20 @@ PartClearance clearanceOf(const Part& part, const Part& other, double cutoff, Wo
   PartClearance result;
   result.part = part.id;
   result.other = other.id;
-  result.overlap = findInterference(b.tree(), a.tree(), otherFromPart).kind;
   result.isBetweenSolids = a.isSolid() && b.isSolid();
-  const SurfaceDistance nearest = leastSurfaceDistance(
-      b.tree(), a.tree(), otherFromPart, std::numeric_limits<double>::infinity(), work.scratch, kAnyWork);
-  result.distance = result.overlap != InterferenceKind::Disjoint ? 0.0 : nearest.distance;
-  result.partPoint = other.worldFromPart.applyToPoint(nearest.partPoint);
-  result.otherPoint = other.worldFromPart.applyToPoint(nearest.scenePoint);
-  const double tolerance = touchTolerance(part, other);
-  if (result.overlap != InterferenceKind::Disjoint) {
-    result.isTouching = doOnlyTouch(b.tree(), a.tree(), otherFromPart, tolerance);
+  const std::optional<PairSeparation> found =
+      separationOf(a, b, otherFromPart, std::numeric_limits<double>::infinity(), work.scratch);
+  if (!found) {
+    // Neither has a triangle that could be near: all are too thin.
+    result.distance = std::numeric_limits<double>::infinity();
     return result;
   }
-  result.isTouching = result.distance <= tolerance;
+  result.overlap = found->overlap;
+  result.isTouching = found->isTouching;
+  result.distance = found->distance;
+  result.partPoint = other.worldFromPart.applyToPoint(found->partPoint);
+  result.otherPoint = other.worldFromPart.applyToPoint(found->otherPoint);
+  if (result.overlap != InterferenceKind::Disjoint) return result;
   const LmdSet minima = work.collector.collect(b.tree(), a.tree(), otherFromPart, cutoff);
   result.minima = minima.lmds.size();
   result.isEveryMinimum = minima.isComplete;
@@ -140,12 +139,6 @@ void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clear
     each.overlap = InterferenceKind::Disjoint;
     each.isTouching = false;
   }
-}
-
-double touchTolerance(const Part& a, const Part& b) noexcept {
-  constexpr double kShare = 1e-6, kMax = 1e-6;
-  const double size = std::min(a.geometry->mesh.bounds().diagonal(), b.geometry->mesh.bounds().diagonal());
-  return std::clamp(kShare * size, std::numeric_limits<double>::min(), kMax);
 }
 
 const char* nameOf(InterferenceKind overlap) noexcept {

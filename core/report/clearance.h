@@ -26,8 +26,7 @@ struct PartClearance {
   bool isDistanceBound = false;
   /// Exact (interference.h); its `scene` is the other part. Parts that touch meet too.
   InterferenceKind overlap = InterferenceKind::Disjoint;
-  /// True if they are apart by at most touchTolerance(), or meet and are separated by a motion of that
-  /// (touching_bodies.h).
+  /// True if they touch (PairSeparation::isTouching).
   bool isTouching = false;
   /// True if both are solid throughout: then the min LMD equals the min distance.
   bool isBetweenSolids = false;
@@ -35,10 +34,6 @@ struct PartClearance {
   /// True if they meet and do not only touch.
   bool isOverlapping() const noexcept { return overlap != InterferenceKind::Disjoint && !isTouching; }
 };
-
-/// Gap or depth up to which parts count as touching [m]: what rounding in files and poses comes to. A millionth
-/// of the smaller part's diagonal, at most 1 um.
-double touchTolerance(const Part& a, const Part& b) noexcept;
 
 /// Clearances of a part to all other visible parts, in scene order. Empty if the part's mesh is empty.
 /// @param cutoff  For counting minima [m]; finite, > 0.

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/files/atomic_write.h"
-#include "core/report/lmd_set.h"
+#include "core/proximity/tracking/lmd_set.h"
 #include "core/report/mesh_export.h"
 #include "core/scene/moving_body.h"
 #include "core/text/json_text.h"

@@ -130,6 +130,7 @@ void Scene::replace(Part part) {
                                   : "it is the moving part and cannot be locked",
                      "choose another moving part, or none, first");
   }
+  if (part.name != before.name) renameInRules(before.name, part.name);
   parts_[index] = std::make_shared<const Part>(std::move(part));
   keepLead();
 }
@@ -141,6 +142,7 @@ void Scene::remove(PartId id) {
   if (movingPart_ == id) movingPart_.reset();
   keepLead();
   std::erase_if(joints_, [id](const Joint& joint) { return joint.part == id || joint.base == id; });
+  dropRecordsOf(id);
 }
 
 void Scene::setMovingPart(std::optional<PartId> id) {

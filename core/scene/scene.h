@@ -12,14 +12,16 @@
 #include "core/scene/group.h"
 #include "core/scene/joint.h"
 #include "core/scene/names.h"
+#include "core/scene/pair_record.h"
+#include "core/scene/pair_rule.h"
 #include "core/scene/part.h"
 
 namespace nearfit {
 
 class GroupBodies;
 
-/// Parts, groups, joints and haptic settings, as a value. Copies are cheap because they share parts and groups; undo
-/// and threads keep copies. Each change either succeeds as a whole or throws UsageError and changes nothing.
+/// Parts, groups, joints, haptic settings, and rules and records of checks, as a value. Copies are cheap because they share
+/// parts and groups; undo and threads keep copies. Each change either succeeds as a whole or throws UsageError and changes nothing.
 class Scene {
  public:
   using PartPtr = std::shared_ptr<const Part>;
@@ -52,11 +54,12 @@ class Scene {
   /// Adds copies of all these parts, in their order, each like add(); of two with one name the later gets the
   /// number. O((n + m) log(n + m)) for m parts beside n.
   std::vector<PartId> addAll(std::vector<Part> parts);
-  /// Replaces the part with the same ID. Throws UsageError like add(), or if there is no such part, its new
+  /// Replaces the part with the same ID. Rules for pairs that name this part alone follow a new name. Throws UsageError
+  /// like add(), or if there is no such part, its new
   /// name is taken, the hand moves it and it would be locked, or it is locked and more than its look (see
   /// differsOnlyInLookOrLock) or geometry would change.
   void replace(Part part);
-  /// Removes a part, with the joints that keep it and those that keep others on it. If it is the moving part, the
+  /// Removes a part, with the joints that keep it and those that keep others on it, and the records of its pairs. If it is the moving part, the
   /// scene has none afterwards; if it leads a moving group, another member leads. Throws UsageError if the part is
   /// unknown or locked.
   void remove(PartId id);
@@ -106,6 +109,18 @@ class Scene {
   /// UsageError like scaleJointsOn().
   void scaleWorldJointsOf(PartId part, double factor);
 
+  /// Rules for pairs of parts in a check of the scene, in the order of the user.
+  const std::vector<PairRule>& pairRules() const noexcept;
+  /// Throws UsageError like checkPairRules().
+  void setPairRules(std::vector<PairRule> rules);
+  /// What the last check found, in ascending order of pairs.
+  const std::vector<PairRecord>& pairRecords() const noexcept;
+  /// The record of a pair; null if there is none. Valid until records change. O(log n).
+  const PairRecord* findPairRecord(const PartPair& pair) const noexcept;
+  /// Sets all records, in any order. Throws UsageError like checkPairRecord(), or if there are more than kMaxPairRecords,
+  /// two of one pair, or one of an unknown part.
+  void setPairRecords(std::vector<PairRecord> records);
+
   /// True if it, or a group that contains it at any depth, is locked.
   bool isLocked(const Part& part) const noexcept;
   bool isLocked(const Group& group) const noexcept;
@@ -152,6 +167,9 @@ class Scene {
   std::size_t indexOf(JointId id) const;
   /// Throws UsageError if the scene cannot hold the joint; normalises its directions.
   Joint checkedForScene(const Joint& joint) const;
+  void dropRecordsOf(PartId id);
+  /// Lets rules that name a part alone follow its new name.
+  void renameInRules(const std::string& from, const std::string& to);
 
   std::vector<PartPtr> parts_;
   std::optional<PartId> movingPart_;
@@ -160,6 +178,8 @@ class Scene {
   HapticSettings haptics_;
   std::vector<GroupPtr> groups_;
   std::vector<Joint> joints_;
+  std::shared_ptr<const std::vector<PairRule>> pairRules_;      ///< Null: none.
+  std::shared_ptr<const std::vector<PairRecord>> pairRecords_;  ///< Null: none.
   std::uint32_t nextId_ = 1, nextGroupId_ = 1, nextJointId_ = 1;
 };
 

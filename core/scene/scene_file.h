@@ -9,7 +9,7 @@
 /// The scene file `*.nearfit`, JSON in UTF-8:
 ///
 ///     {
-///       "nearfit": 6,                                        format version
+///       "nearfit": 7,                                        format version
 ///       "units": {"length": "m", "force": "N", "time": "s"}, always these
 ///       "haptics": {
 ///         "mode": "proxy",                                   or "springs": the part is at the handle
@@ -69,6 +69,21 @@
 ///         "onBase": {"point": [0, 0, 0],                     the same in the base's frame
 ///                    "direction": [0, 0, 1]},
 ///         "on": true
+///       }],
+///       "pairRules": [{                                      for checks of the scene
+///         "kind": "pressFit",                                or "leaveOut", "sameGroup", "touching": see pair_rule.h
+///         "part": "Bolt*",                                   patterns for the names of the two parts:
+///         "other": "Plate",                                  see name_pattern.h; "*" for "sameGroup"
+///         "interference": 2e-5                               [m]; 0 for the others
+///       }],
+///       "pairRecords": [{                                    what the last check found, see pair_record.h
+///         "part": 0,                                         indices of the two parts, in ascending order
+///         "other": 3,
+///         "verdict": "clash",                                or "clear", "near", "touching", "contained"
+///         "distance": 0,                                     [m]
+///         "depth": 1.5e-5,                                   [m], or null
+///         "state": "accepted",                               or "new", "fixed"
+///         "reason": "pressed in"                             why it is accepted
 ///       }]
 ///     }
 ///
@@ -77,7 +92,8 @@
 /// and haptic_limits.h.
 ///
 /// Older versions can still be read:
-/// - Version 5 has no "shape" (all files are mesh files), no "repairs" and no "movingGroup": a part is in hand, or none.
+/// - Version 6 has no "pairRules" and no "pairRecords".
+/// - Version 5 also has no "shape" (all files are mesh files), no "repairs" and no "movingGroup": a part is in hand, or none.
 /// - Version 4 also has no "joints".
 /// - Version 3 also has no "pivot": parts turn about their centre of mass.
 /// - Version 2 also has no "groups", and parts have no "opacity", "group" and "wasVisible": they are opaque
@@ -87,7 +103,7 @@
 namespace nearfit {
 
 /// Version that this program writes, and oldest version that it reads.
-constexpr int kSceneFileVersion = 6, kOldestSceneFileVersion = 1;
+constexpr int kSceneFileVersion = 7, kOldestSceneFileVersion = 1;
 /// Limits on the size of a scene file [bytes], which leaves room for the largest number of parts, and on that number.
 constexpr std::size_t kMaxSceneFileBytes = 16U << 20U;
 constexpr std::size_t kMaxSceneFileParts = 10'000;

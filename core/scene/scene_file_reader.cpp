@@ -355,6 +355,84 @@ void addJoints(Scene& scene, const std::vector<JointEntry>& entries) {
   }
 }
 
+/// @param field  The array "pairRules".
+std::vector<PairRule> readPairRules(const JsonField& field) {
+  const std::size_t count = field.size();
+  if (count > kMaxPairRules) field.fail(fmt::format("there are more than {} rules", kMaxPairRules));
+  std::vector<PairRule> rules;
+  for (std::size_t i = 0; i < count; ++i) {
+    const JsonField each = field.at(i);
+    const std::optional<PairRuleKind> kind = pairRuleNamed(each.at("kind").text(16));
+    if (!kind)
+      each.at("kind").fail("this value is not known",
+                           R"(give "leaveOut", "sameGroup", "touching" or "pressFit")");
+    rules.push_back({*kind, each.at("part").text(kMaxPatternBytes), each.at("other").text(kMaxPatternBytes),
+                     each.at("interference").number()});
+    checked(each, [&] { checkPairRule(rules.back()); });
+  }
+  return rules;
+}
+
+/// A record of a pair as in the file.
+struct RecordEntry {
+  PairRecord record;        ///< `pair` is not set.
+  std::size_t part, other;  ///< Indices of parts.
+};
+
+/// @param first  The part must come after this one.
+std::size_t readPartIndex(const JsonField& field, std::size_t count, std::optional<std::size_t> first = {}) {
+  const double index = field.number();
+  const double least = first ? static_cast<double>(*first) + 1.0 : 0.0;
+  if (!(index >= least && index < static_cast<double>(count) && index == std::floor(index)))
+    field.fail(fmt::format("{} is not the number of one of the {} parts{}", index, count,
+                           first ? " after the other" : ""),
+               "give the number of a part, from 0");
+  return static_cast<std::size_t>(index);
+}
+
+RecordEntry readPairRecord(const JsonField& field, std::size_t partCount) {
+  RecordEntry entry{{}, readPartIndex(field.at("part"), partCount), 0};
+  entry.other = readPartIndex(field.at("other"), partCount, entry.part);
+  const std::optional<PairVerdict> verdict = pairVerdictNamed(field.at("verdict").text(16));
+  if (!verdict)
+    field.at("verdict").fail("this value is not known",
+                             R"(give "clear", "near", "touching", "clash" or "contained")");
+  const std::optional<FindingState> state = findingStateNamed(field.at("state").text(16));
+  if (!state) field.at("state").fail("this value is not known", R"(give "new", "accepted" or "fixed")");
+  entry.record.verdict = *verdict;
+  entry.record.state = *state;
+  entry.record.distance = field.at("distance").number();
+  if (!field.at("depth").isNull()) entry.record.depth = field.at("depth").number();
+  entry.record.reason = field.at("reason").text(kMaxReasonBytes);
+  PairRecord ordered = entry.record;
+  ordered.pair = {PartId{0}, PartId{1}};
+  checked(field, [&] { checkPairRecord(ordered); });
+  return entry;
+}
+
+/// @param field  The array "pairRecords".
+std::vector<RecordEntry> readPairRecords(const JsonField& field, std::size_t partCount) {
+  const std::size_t count = field.size();
+  if (count > kMaxPairRecords) field.fail(fmt::format("there are more than {} findings", kMaxPairRecords));
+  std::vector<RecordEntry> entries;
+  std::set<std::pair<std::size_t, std::size_t>> known;
+  for (std::size_t i = 0; i < count; ++i) {
+    entries.push_back(readPairRecord(field.at(i), partCount));
+    if (!known.emplace(entries.back().part, entries.back().other).second)
+      field.at(i).fail("there is an earlier finding of these parts", "keep one");
+  }
+  return entries;
+}
+
+void setPairRecords(Scene& scene, const std::vector<RecordEntry>& entries) {
+  std::vector<PairRecord> records;
+  for (const RecordEntry& entry : entries) {
+    records.push_back(entry.record);
+    records.back().pair = {scene.parts()[entry.part]->id, scene.parts()[entry.other]->id};
+  }
+  scene.setPairRecords(std::move(records));
+}
+
 /// Loads meshes, each file, unit, shape and tessellation once for the same repairs.
 class GeometryLoader {
  public:
@@ -482,6 +560,9 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress,
     movingGroup = readMovingGroup(root.at("movingGroup"), entries, groups, moving.has_value());
   const std::vector<JointEntry> joints =
       version >= 5 ? readJoints(root.at("joints"), entries) : std::vector<JointEntry>();
+  if (version >= 7) scene.setPairRules(readPairRules(root.at("pairRules")));
+  const std::vector<RecordEntry> records =
+      version >= 7 ? readPairRecords(root.at("pairRecords"), entries.size()) : std::vector<RecordEntry>();
   const std::vector<std::size_t> lockedLater = unlockForJoints(entries, joints);
   GeometryLoader loader(entries, progress, changedMeshes);
   std::vector<GroupId> ids;
@@ -496,6 +577,7 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress,
   }
   scene.addAll(std::move(parts));
   addJoints(scene, joints);
+  setPairRecords(scene, records);
   lockParts(scene, lockedLater);
   if (moving) scene.setMovingPart(scene.parts()[*moving]->id);
   if (movingGroup) scene.setMovingGroup(ids[*movingGroup]);

@@ -32,6 +32,8 @@ std::string meshPath(const std::filesystem::path& mesh, const std::filesystem::p
 
 /// Index of each group in the file.
 using GroupIndices = std::map<GroupId, std::size_t>;
+/// Index of each part in the file.
+using PartIndices = std::map<PartId, std::size_t>;
 
 Json indexJson(std::optional<GroupId> group, const GroupIndices& indices) {
   return group ? Json(indices.at(*group)) : Json();
@@ -104,6 +106,25 @@ Json jointJson(const Joint& joint, const Scene& scene) {
   return json;
 }
 
+Json pairRuleJson(const PairRule& rule) {
+  return {{"kind", wordOf(rule.kind)},
+          {"part", rule.part},
+          {"other", rule.other},
+          {"interference", rule.interference}};
+}
+
+Json pairRecordJson(const PairRecord& record, const PartIndices& indices) {
+  Json json;
+  json["part"] = indices.at(record.pair.part);
+  json["other"] = indices.at(record.pair.other);
+  json["verdict"] = wordOf(record.verdict);
+  json["distance"] = record.distance;
+  json["depth"] = record.depth ? Json(*record.depth) : Json();
+  json["state"] = wordOf(record.state);
+  json["reason"] = record.reason;
+  return json;
+}
+
 }  // namespace
 
 std::string sceneFileText(const Scene& scene, const std::filesystem::path& file) {
@@ -118,11 +139,20 @@ std::string sceneFileText(const Scene& scene, const std::filesystem::path& file)
   json["movingGroup"] = indexJson(scene.movingGroup(), groups);
   json["groups"] = std::move(listed);
   json["parts"] = Json::array();
-  for (const Scene::PartPtr& part : scene.parts())
+  PartIndices parts;
+  for (const Scene::PartPtr& part : scene.parts()) {
+    parts.emplace(part->id, parts.size());
     json["parts"].push_back(partJson(*part, groups, file));
+  }
   json["joints"] = Json::array();
   for (const Joint& joint : scene.joints())
     json["joints"].push_back(jointJson(joint, scene));
+  json["pairRules"] = Json::array();
+  for (const PairRule& rule : scene.pairRules())
+    json["pairRules"].push_back(pairRuleJson(rule));
+  json["pairRecords"] = Json::array();
+  for (const PairRecord& record : scene.pairRecords())
+    json["pairRecords"].push_back(pairRecordJson(record, parts));
   return prettyJson(json);
 }
 

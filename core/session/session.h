@@ -81,6 +81,14 @@ class Session {
   void removeJoints(const std::vector<JointId>& ids);
   /// Turns joints on or off; their parts stay where they are.
   void setJointsOn(const std::vector<JointId>& ids, bool on);
+  /// Sets the rules for pairs of parts in checks of the scene. Throws UsageError like Scene::setPairRules().
+  void setPairRules(const std::vector<PairRule>& rules);
+  /// Keeps what a check of the scene found. Throws UsageError like Scene::setPairRecords().
+  void setPairRecords(const std::vector<PairRecord>& records);
+  /// Sets what the user says about findings; parts may be locked. Throws UsageError if one of the pairs has no record, or
+  /// like checkPairRecord().
+  /// @param reason  Why they are accepted; else may be empty.
+  void setFindingState(const std::vector<PartPair>& pairs, FindingState state, const std::string& reason = {});
   /// Sets the moving part; std::nullopt for none. Throws UsageError if the part is locked.
   void setMovingPart(std::optional<PartId> id);
   /// Makes all parts in a group move as one. Throws UsageError like Scene::setMovingGroup().

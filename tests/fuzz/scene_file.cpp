@@ -56,6 +56,17 @@ void checkSame(const Scene& a, const Scene& b) {
                 a.get(x.part).name == b.get(y.part).name && x.base.has_value() == y.base.has_value(),
             "joints are read as written");
   }
+  require(a.pairRules() == b.pairRules(), "rules for pairs are read as written");
+  require(a.pairRecords().size() == b.pairRecords().size(), "as many records are read as were written");
+  for (std::size_t i = 0; i < a.pairRecords().size(); ++i) {
+    PairRecord x = a.pairRecords()[i];
+    const PairRecord& y = b.pairRecords()[i];
+    require(a.get(x.pair.part).name == b.get(y.pair.part).name &&
+                a.get(x.pair.other).name == b.get(y.pair.other).name,
+            "records are of the parts that were written");
+    x.pair = y.pair;
+    require(x == y, "records are read as written");
+  }
   for (std::size_t i = 0; i < a.parts().size(); ++i) {
     const Part &x = *a.parts()[i], &y = *b.parts()[i];
     require(x.name == y.name && x.geometry->sha256 == y.geometry->sha256 && x.colour == y.colour &&

@@ -10,6 +10,7 @@
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/overlap/containment.h"
 #include "core/proximity/overlap/placed_mesh.h"
+#include "core/proximity/query/broad_phase.h"
 #include "core/proximity/query/query_workspace.h"
 #include "core/proximity/query/tree_traversal.h"
 
@@ -96,6 +97,8 @@ Interference findInterference(const NormalConeTree& scene, const NormalConeTree&
   if (!sceneFromPart.isFinite()) throw UsageError("pose", "it is not finite", "give finite numbers");
   const PlacedMesh placedScene(scene, nullptr), placedPart(part, &sceneFromPart);
   if (const auto meeting = MeetingSearch(placedScene, placedPart).find(sceneFromPart)) return *meeting;
+  // Most bodies that are apart have boxes that are: components cost time by the number of their triangles.
+  if (!doOverlap(boundsOf(part.mesh().bounds(), sceneFromPart), scene.mesh().bounds())) return {};
 
   const MeshComponents scenePieces = piecesOf(scene.mesh()), partPieces = piecesOf(part.mesh());
   if (const auto triangle = pieceInside(placedPart, partPieces, PlacedSolid(placedScene, scenePieces))) {

@@ -173,5 +173,10 @@ TEST(MassProperties, MeshWithoutTrianglesHasNone) {
   EXPECT_EQ(massProperties(TriangleMesh()).volume, 0.0);
 }
 
+TEST(MassProperties, BasesHaveTheNamesOfTheReports) {
+  EXPECT_STREQ(nameOf(MassBasis::VolumeIntegrals), "volume integrals");
+  EXPECT_STREQ(nameOf(MassBasis::OrientedBox), "oriented box");
+}
+
 }  // namespace
 }  // namespace nearfit::mass_properties_test

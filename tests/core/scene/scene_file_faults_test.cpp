@@ -24,9 +24,9 @@ TEST_F(SceneFileFaults, MissingFileIsToldByName) {
 }
 
 TEST_F(SceneFileFaults, UnknownVersionSaysWhichOneThisProgramReads) {
-  EXPECT_THAT(errorWith("/nearfit", 7),
-              AllOf(HasSubstr("fit.nearfit: nearfit: "), HasSubstr("version 7"),
-                    HasSubstr("reads versions 1 to 6"), HasSubstr("newer Nearfit")));
+  EXPECT_THAT(errorWith("/nearfit", 8),
+              AllOf(HasSubstr("fit.nearfit: nearfit: "), HasSubstr("version 8"),
+                    HasSubstr("reads versions 1 to 7"), HasSubstr("newer Nearfit")));
   EXPECT_THAT(errorWith("/nearfit", 0), HasSubstr("with the Nearfit that made it"));
   EXPECT_THAT(errorWith("/nearfit", 1.5), HasSubstr("this is version 1.5"));
   EXPECT_THAT(errorWith("/nearfit", "1"), HasSubstr("nearfit: it is of type string"));
@@ -193,6 +193,25 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
       {"/joints/1/onBase/direction", {1e200, 1e200, 0}, "joints[1].onBase.direction: its length is inf"},
       {"/joints/0/on", 1, "joints[0].on: it is of type number, but true or false is expected"},
       {"/parts/1/locked", "no", "parts[1].locked: it is of type string"},
+      {"/pairRules", nullptr, "pairRules: it is of type null, but an array is expected"},
+      {"/pairRules/0/kind", "ignore", "pairRules[0].kind: this value is not known; give \"leaveOut\""},
+      {"/pairRules/0/part", "", "pairRules[0]: it is empty; give a name, or * for any"},
+      {"/pairRules/0/other", "a\\", "pairRules[0]: nothing follows the last backslash"},
+      {"/pairRules/0/interference", 1e-3, "pairRules[0]: only a press fit has an interference"},
+      {"/pairRules/1/part", "Peg", "pairRules[1]: it takes no names"},
+      {"/pairRules/3/interference", 0, "pairRules[3]: 0 m is out of range"},
+      {"/pairRules/3/interference", 2, "pairRules[3]: 2 m is out of range"},
+      {"/pairRules/3/part", std::string(401, 'x'), "pairRules[3].part: it is longer than 400 bytes"},
+      {"/pairRecords/0/part", 3, "pairRecords[0].part: 3 is not the number of one of the 3 parts"},
+      {"/pairRecords/0/part", -1, "pairRecords[0].part: -1 is not the number"},
+      {"/pairRecords/0/other", 0, "pairRecords[0].other: 0 is not the number of one of the 3 parts after"},
+      {"/pairRecords/0/other", 1.5, "pairRecords[0].other: 1.5 is not the number"},
+      {"/pairRecords/0/verdict", "bad", "pairRecords[0].verdict: this value is not known"},
+      {"/pairRecords/0/state", "open", "pairRecords[0].state: this value is not known"},
+      {"/pairRecords/0/reason", "", "pairRecords[0]: it is accepted without a reason"},
+      {"/pairRecords/0/reason", "a\nb", "pairRecords[0]: it is too long, or not printable"},
+      {"/pairRecords/0/distance", -1, "pairRecords[0]: a length is negative"},
+      {"/pairRecords/0/depth", -1, "pairRecords[0]: a length is negative"},
   };
   for (const auto& [pointer, value, message] : faults) {
     const std::string error = errorWith(pointer, value);
@@ -222,6 +241,10 @@ TEST_F(SceneFileFaults, EveryKeyIsNeeded) {
   for (const auto& [key, value] : json_["joints"][0].items()) {
     EXPECT_THAT(errorWithout("/joints/0", key), HasSubstr("joints[0]." + key + ": it is missing"));
   }
+  for (const auto& [key, value] : json_["pairRules"][3].items())
+    EXPECT_THAT(errorWithout("/pairRules/3", key), HasSubstr("pairRules[3]." + key + ": it is missing"));
+  for (const auto& [key, value] : json_["pairRecords"][0].items())
+    EXPECT_THAT(errorWithout("/pairRecords/0", key), HasSubstr("pairRecords[0]." + key + ": it is missing"));
   for (const char* key : {"point", "direction"}) {
     EXPECT_THAT(errorWithout("/joints/0/onBase", key),
                 HasSubstr(fmt::format("joints[0].onBase.{}: it is missing", key)));
@@ -245,6 +268,23 @@ TEST_F(SceneFileFaults, Version2WithTheSpringsOfVersion1SaysWhatIsMissing) {
   json_ = version1();
   json_["nearfit"] = 2;
   EXPECT_THAT(errorOf(json_.dump()), HasSubstr("haptics: it is missing"));
+}
+
+TEST_F(SceneFileFaults, WhatVersion7SaysIsIgnoredInVersion6) {
+  json_ = version6();
+  EXPECT_EQ(errorWith("/pairRules", "none"), "");
+  EXPECT_EQ(errorWith("/pairRecords", "none"), "");
+}
+
+TEST_F(SceneFileFaults, TooManyRulesAndRecordsOrTwoOfOnePairAreRefused) {
+  const Json rule = json_["pairRules"][0], record = json_["pairRecords"][0];
+  json_["pairRecords"].push_back(record);
+  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("pairRecords[2]: there is an earlier finding of these parts"));
+  json_["pairRecords"] = Json::array_t(kMaxPairRecords + 1, record);
+  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("pairRecords: there are more than 20000 findings"));
+  dropPairs();
+  json_["pairRules"] = Json::array_t(kMaxPairRules + 1, rule);
+  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("pairRules: there are more than 1000 rules"));
 }
 
 TEST_F(SceneFileFaults, WhatVersion6SaysIsIgnoredInVersion5) {

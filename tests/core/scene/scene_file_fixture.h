@@ -48,6 +48,7 @@ class SceneFileFixture : public ::testing::Test {
     part.group = spare;
     const PartId sparePegId = scene_.add(part);
     addJoints(holeId, pegId, sparePegId);
+    addPairs(holeId, pegId, sparePegId);
     Part lockedHole = scene_.get(holeId);
     lockedHole.isLocked = true;
     scene_.replace(lockedHole);
@@ -77,6 +78,17 @@ class SceneFileFixture : public ::testing::Test {
     scene_.addJoint(joint);
   }
 
+  /// A rule of each kind, and records of two pairs.
+  void addPairs(PartId hole, PartId peg, PartId sparePeg) {
+    scene_.setPairRules({{PairRuleKind::LeaveOut, "Peg*", "Hole \xC3\xA4"},
+                         {PairRuleKind::SameGroup},
+                         {PairRuleKind::Touching, "\\*", "?"},
+                         {PairRuleKind::PressFit, "Peg", "*", 1e-5 / 3.0}});
+    scene_.setPairRecords(
+        {{{hole, peg}, PairVerdict::Clash, 0.0, 1e-4 / 3.0, FindingState::Accepted, "fits \xC3\xA4"},
+         {{peg, sparePeg}, PairVerdict::Near, 0.1 + 0.2, {}, FindingState::New, ""}});
+  }
+
   /// One with a size of many digits, and one without.
   static MeshRepairs unusualRepairs() { return {{RepairKind::Weld, 1e-5 / 3.0}, {RepairKind::Orient}}; }
 
@@ -92,9 +104,18 @@ class SceneFileFixture : public ::testing::Test {
     return haptics;
   }
 
+  /// The scene as version 6 of the format says it.
+  nlohmann::json version6() const {
+    nlohmann::json json = json_;
+    json["nearfit"] = 6;
+    json.erase("pairRules");
+    json.erase("pairRecords");
+    return json;
+  }
+
   /// The scene as version 5 of the format says it.
   nlohmann::json version5() const {
-    nlohmann::json json = json_;
+    nlohmann::json json = version6();
     json["nearfit"] = 5;
     for (nlohmann::json& part : json["parts"]) {
       part.erase("repairs");
@@ -149,6 +170,9 @@ class SceneFileFixture : public ::testing::Test {
     for (nlohmann::json& part : json_["parts"])
       part["repairs"] = nlohmann::json::array();
   }
+
+  /// Takes the rules and records of pairs out of it.
+  void dropPairs() { json_["pairRules"] = json_["pairRecords"] = nlohmann::json::array(); }
 
   /// What reading the file gives when it holds this; "" when it is a scene.
   std::string errorOf(const std::string& text) {

@@ -48,6 +48,19 @@ void expectSameJoints(const Scene& a, const Scene& b) {
   }
 }
 
+void expectSamePairs(const Scene& a, const Scene& b) {
+  EXPECT_EQ(a.pairRules(), b.pairRules());
+  ASSERT_EQ(a.pairRecords().size(), b.pairRecords().size());
+  for (std::size_t i = 0; i < a.pairRecords().size(); ++i) {
+    PairRecord p = a.pairRecords()[i];
+    const PairRecord& q = b.pairRecords()[i];
+    EXPECT_EQ(nameOf(a, p.pair.part), nameOf(b, q.pair.part)) << i;
+    EXPECT_EQ(nameOf(a, p.pair.other), nameOf(b, q.pair.other)) << i;
+    p.pair = q.pair;
+    EXPECT_TRUE(p == q) << i;
+  }
+}
+
 void expectSameScene(const Scene& a, const Scene& b) {
   ASSERT_EQ(a.parts().size(), b.parts().size());
   for (std::size_t i = 0; i < a.parts().size(); ++i) {
@@ -74,6 +87,7 @@ void expectSameScene(const Scene& a, const Scene& b) {
   EXPECT_TRUE(a.haptics() == b.haptics());
   expectSameGroups(a, b);
   expectSameJoints(a, b);
+  expectSamePairs(a, b);
 }
 
 TEST_F(SceneFile, TenThousandPartsOfOneMeshHaveOneGeometry) {
@@ -130,7 +144,7 @@ TEST_F(SceneFile, SavingWhatWasReadGivesTheSameBytes) {
 }
 
 TEST_F(SceneFile, FileSaysVersionUnitsAndRelativePaths) {
-  EXPECT_EQ(json_["nearfit"], 6);
+  EXPECT_EQ(json_["nearfit"], 7);
   EXPECT_EQ(json_["units"]["length"], "m");
   EXPECT_EQ(json_["moving"], "Peg");
   EXPECT_EQ(json_["movingGroup"], nullptr);
@@ -197,6 +211,24 @@ TEST_F(SceneFile, FileSaysJointsByTheNamesOfTheirParts) {
   EXPECT_EQ(json_["joints"], expected);
 }
 
+TEST_F(SceneFile, FileSaysRulesByPatternsAndRecordsByTheNumbersOfTheirParts) {
+  Json rules = Json::parse(R"([
+    {"kind": "leaveOut", "part": "Peg*", "other": "Hole \u00e4", "interference": 0.0},
+    {"kind": "sameGroup", "part": "*", "other": "*", "interference": 0.0},
+    {"kind": "touching", "part": "\\*", "other": "?", "interference": 0.0},
+    {"kind": "pressFit", "part": "Peg", "other": "*"}
+  ])");
+  rules[3]["interference"] = 1e-5 / 3.0;
+  EXPECT_EQ(json_["pairRules"], rules);
+  Json records = Json::parse(R"([
+    {"part": 0, "other": 1, "verdict": "clash", "distance": 0.0, "state": "accepted", "reason": "fits \u00e4"},
+    {"part": 1, "other": 2, "verdict": "near", "distance": 0.30000000000000004, "depth": null, "state": "new",
+     "reason": ""}
+  ])");
+  records[0]["depth"] = 1e-4 / 3.0;
+  EXPECT_EQ(json_["pairRecords"], records);
+}
+
 TEST_F(SceneFile, AMovingGroupIsSavedByItsNumberAndComesBack) {
   const GroupId pegs = *scene_.parts()[1]->group;
   scene_.setMovingGroup(*scene_.findGroup(pegs)->parent);
@@ -244,10 +276,20 @@ TEST_F(SceneFile, RepairsAreMadeToWhatIsReadAndTheFileStays) {
   EXPECT_EQ(test::readBytes(mesh), text);
 }
 
+TEST_F(SceneFile, Version6KeepsAllThatItSaysAndHasNoRulesOrRecordsOfPairs) {
+  EXPECT_EQ(errorOf(version6().dump()), "");
+  const Scene scene = readSceneFile(file_);
+  EXPECT_TRUE(scene.pairRules().empty() && scene.pairRecords().empty());
+  dropPairs();
+  EXPECT_EQ(errorOf(json_.dump()), "");
+  expectSameScene(scene, readSceneFile(file_));
+}
+
 TEST_F(SceneFile, Version5KeepsAllThatItSaysAndHasNoShapesRepairsOrMovingGroup) {
   EXPECT_EQ(errorOf(version5().dump()), "");
   const Scene scene = readSceneFile(file_);
   dropRepairs();
+  dropPairs();
   EXPECT_EQ(errorOf(json_.dump()), "");
   expectSameScene(scene, readSceneFile(file_));
   EXPECT_FALSE(scene.movingGroup());
@@ -258,6 +300,7 @@ TEST_F(SceneFile, Version4KeepsAllThatItSaysAndHasNoJoints) {
   const Scene scene = readSceneFile(file_);
   EXPECT_TRUE(scene.joints().empty());
   dropRepairs();
+  dropPairs();
   json_["joints"] = Json::array();
   EXPECT_EQ(errorOf(json_.dump()), "");
   expectSameScene(scene, readSceneFile(file_));
@@ -269,6 +312,7 @@ TEST_F(SceneFile, Version3KeepsAllThatItSaysAndTurnsAboutCentresOfMass) {
   for (Json& part : json_["parts"])
     part["pivot"] = nullptr;
   dropRepairs();
+  dropPairs();
   json_["joints"] = Json::array();
   EXPECT_EQ(errorOf(json_.dump()), "");
   expectSameScene(scene, readSceneFile(file_));
@@ -348,7 +392,7 @@ TEST_F(SceneFile, Version1KeepsItsSpringsAndGetsTheRestOfANewScene) {
     EXPECT_EQ(part->density, 1000.0);
   EXPECT_EQ(scene.parts()[1]->worldFromPart.translation, scene_.parts()[1]->worldFromPart.translation);
   writeSceneFile(scene, file_);
-  EXPECT_EQ(Json::parse(test::readBytes(file_))["nearfit"], 6);
+  EXPECT_EQ(Json::parse(test::readBytes(file_))["nearfit"], 7);
   expectSameScene(readSceneFile(file_), scene);
 }
 

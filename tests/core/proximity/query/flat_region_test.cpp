@@ -12,7 +12,7 @@
 #include "core/math/tolerances.h"
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/tracking/candidate_list.h"
-#include "core/report/lmd_set.h"
+#include "core/proximity/tracking/lmd_set.h"
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"

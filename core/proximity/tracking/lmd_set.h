@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/mesh/mass_properties.h"
 #include "core/proximity/query/lmd_query.h"
 #include "core/proximity/tracking/candidate_list.h"
 #include "core/proximity/tracking/lmd_tracker.h"
@@ -57,10 +56,5 @@ class LmdCollector {
   CandidateList list_;
   const NormalConeTree *followedScene_ = nullptr, *followedPart_ = nullptr;
 };
-
-/// "vertex", "edge" or "face".
-const char* nameOf(FeatureKind kind) noexcept;
-/// "volume integrals" or "oriented box".
-const char* nameOf(MassBasis basis) noexcept;
 
 }  // namespace nearfit

@@ -1,4 +1,4 @@
-#include "core/report/lmd_set.h"
+#include "core/proximity/tracking/lmd_set.h"
 
 #include <algorithm>
 #include <chrono>
@@ -69,22 +69,6 @@ LmdSet LmdCollector::collectTracked(const NormalConeTree& scene, const NormalCon
     const std::optional<LmdResult> listed = list_.query(sceneFromPart, cutoff, scratch, out);
     return listed ? *listed : findLmds(scene, part, sceneFromPart, cutoff, scratch, out);
   });
-}
-
-const char* nameOf(FeatureKind kind) noexcept {
-  switch (kind) {
-    case FeatureKind::Vertex:
-      return "vertex";
-    case FeatureKind::Edge:
-      return "edge";
-    case FeatureKind::Face:
-      break;
-  }
-  return "face";
-}
-
-const char* nameOf(MassBasis basis) noexcept {
-  return basis == MassBasis::VolumeIntegrals ? "volume integrals" : "oriented box";
 }
 
 }  // namespace nearfit

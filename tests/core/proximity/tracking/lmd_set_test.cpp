@@ -1,4 +1,4 @@
-#include "core/report/lmd_set.h"
+#include "core/proximity/tracking/lmd_set.h"
 
 #include <gtest/gtest.h>
 
@@ -56,8 +56,6 @@ TEST(LmdCollector, KindsHaveTheNamesOfTheReports) {
   EXPECT_STREQ(nameOf(FeatureKind::Vertex), "vertex");
   EXPECT_STREQ(nameOf(FeatureKind::Edge), "edge");
   EXPECT_STREQ(nameOf(FeatureKind::Face), "face");
-  EXPECT_STREQ(nameOf(MassBasis::VolumeIntegrals), "volume integrals");
-  EXPECT_STREQ(nameOf(MassBasis::OrientedBox), "oriented box");
 }
 
 }  // namespace

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace nearfit::cli {
+
+/// Options of `clearance --all`.
+struct SceneCheckOptions {
+  std::string threshold, json, csv;
+  std::vector<std::string> leaveOut, touching, pressFit;
+  bool leaveOutGroups = false;
+};
+
+/// Adds the options; each needs `all`.
+void addSceneCheckOptions(CLI::App& command, CLI::Option& all,
+                          const std::shared_ptr<SceneCheckOptions>& options);
+
+/// Checks all pairs of a scene's visible parts and prints what it finds. Throws ForbiddenClash if the parts clash and no
+/// rule allows it, UsageError, FileError, Cancelled (after an interrupt).
+void runSceneCheck(const std::string& scene, const SceneCheckOptions& options);
+
+}  // namespace nearfit::cli

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/pair_record.h"
+#include "core/verdict/scene_check.h"
+
+namespace nearfit {
+
+/// How a finding differs from what the last check found of the same parts.
+enum class FindingChange : std::uint8_t { New, Worse, Same, Better, Gone };
+
+/// "new", "worse", "same", "better" or "gone".
+const char* wordOf(FindingChange change) noexcept;
+
+/// A finding of this check, of the last one, or of both.
+struct ComparedFinding {
+  PartPair pair;
+  const PairFinding* now = nullptr;  ///< In the check; null if it is gone, or its parts were not checked this time.
+  std::optional<PairRecord> before;  ///< No value if the last check did not find it.
+  FindingChange change = FindingChange::New;
+  /// What the user says, carried over. An accepted finding that became worse is New again, with its reason; one that is
+  /// gone is Fixed, and New again if it comes back.
+  FindingState state = FindingState::New;
+  std::string reason;
+};
+
+/// Compares a check with the records of the last one: all findings of both, in ascending order of pairs. A finding is
+/// worse if its verdict is, or by the same verdict if the parts are nearer, or in each other deeper, by more than a
+/// thousandth and a nanometre. Records of pairs that were not checked this time, because a part is hidden or a rule leaves
+/// them out, stay as they are, as Same; so do those that were gone before, with the verdict Clear.
+/// @param check   Kept by pointer in the result.
+/// @param before  In ascending order of pairs, as Scene::pairRecords().
+std::vector<ComparedFinding> compareFindings(const SceneCheck& check, const std::vector<PairRecord>& before);
+
+/// What is to be kept with the scene: all that the user said something about, and of the rest the worst, up to
+/// kMaxPairRecords in all. In ascending order of pairs.
+std::vector<PairRecord> recordsOf(const std::vector<ComparedFinding>& findings);
+
+}  // namespace nearfit

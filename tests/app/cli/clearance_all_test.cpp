@@ -1,0 +1,109 @@
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/cli/plate_and_cube.h"
+
+namespace nearfit::test::clearance_all_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+/// Besides the plate with the cube 1 m above it, a scene in which a cube is 0.1 m in the plate.
+class ClearanceAll : public PlateAndCube {
+ protected:
+  ClearanceAll() {
+    const auto made =
+        runCli({"scene", "new", clashing_, "--unit", "m", "--part", "Plate=" + path("plate.obj"), "--part",
+                "Cube=" + path("cube.obj") + "@0,0,0.9,1,0,0,0"});
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+  }
+  auto check(const std::string& scene, std::vector<std::string> options) {
+    std::vector<std::string> arguments{"clearance", scene, "--all"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return runCli(arguments);
+  }
+
+  std::string clashing_ = path("clash.nearfit");
+};
+
+TEST_F(ClearanceAll, AClashGivesATableASummaryAndExitCode3) {
+  const auto result = check(clashing_, {"--threshold", "10mm"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("Plate | Cube"));
+  EXPECT_THAT(result.out, HasSubstr("1 pairs checked, 0 left out: 0 clear, 0 near, 0 touching, 1 clashes"));
+}
+
+TEST_F(ClearanceAll, WithoutAClashTheExitCodeIs0) {
+  const auto near = check(scene_, {"--threshold", "1.5"});
+  EXPECT_EQ(near.exitCode, 0) << near.err;
+  EXPECT_THAT(near.out, HasSubstr("1 near"));
+  const auto clear = check(scene_, {"--threshold", "0.5"});
+  EXPECT_EQ(clear.exitCode, 0) << clear.err;
+  EXPECT_THAT(clear.out, HasSubstr("1 clear"));
+  EXPECT_THAT(check(scene_, {}).out, HasSubstr("1 clear")) << "the scene's cutoff, a centimetre";
+}
+
+TEST_F(ClearanceAll, JsonAndCsvSayWhatWasFound) {
+  const auto result = check(clashing_, {"--threshold", "0.01", "--json", "-", "--csv", path("check.csv")});
+  EXPECT_EQ(result.exitCode, 3);
+  const Json json = Json::parse(result.out);
+  EXPECT_EQ(json["threshold"], 0.01);
+  ASSERT_EQ(json["findings"].size(), 1U);
+  const Json& clash = json["findings"][0]["clash"];
+  EXPECT_NEAR(clash["volume"].get<double>(), 0.1, 1e-9);
+  EXPECT_NEAR(clash["depth"]["length"].get<double>(), 0.1, 1e-9);
+  EXPECT_NEAR(clash["depth"]["direction"][2].get<double>(), -1.0, 1e-9) << "of the plate";
+  EXPECT_THAT(readBytes(path("check.csv")), HasSubstr("Plate,Cube,clash,0,"));
+}
+
+TEST_F(ClearanceAll, RulesOfTheCommandLineLeaveOutAndAllow) {
+  EXPECT_EQ(check(clashing_, {"--leave-out", "Cube:Pl*"}).exitCode, 0);
+  EXPECT_EQ(check(clashing_, {"--touching", "Plate:Cube"}).exitCode, 3);
+  EXPECT_EQ(check(clashing_, {"--press-fit", "Plate:Cube=50mm"}).exitCode, 3);
+  const auto allowed = check(clashing_, {"--press-fit", "Plate:*=0.11"});
+  EXPECT_EQ(allowed.exitCode, 0) << allowed.err;
+  EXPECT_THAT(allowed.out, HasSubstr("allowed: press fit of Plate with * up to 0.11 m"));
+  const auto both =
+      check(clashing_, {"--leave-out", "X:Y", "--leave-out", "Plate:Cube", "--leave-out-groups"});
+  EXPECT_EQ(both.exitCode, 0) << both.err;
+  EXPECT_THAT(both.out, HasSubstr("1 left out"));
+}
+
+TEST_F(ClearanceAll, WhatMakesNoSenseIsWrongUsage) {
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+           {"--threshold", "-1"},
+           {"--threshold", "1 kg"},
+           {"--leave-out", "Plate"},
+           {"--leave-out", ":Cube"},
+           {"--press-fit", "Plate:Cube"},
+           {"--press-fit", "Plate:Cube=0"},
+           {"--press-fit", "Plate:Cube=2"},
+           {"--part", "Plate"},
+           {"--cutoff", "0.1"},
+           {"--json", "-", "--csv", "-"},
+           {"--json", path("x.json"), "--csv", path("x.json")},
+           {"--json", path("plate.obj")}}) {
+    const auto result = check(clashing_, options);
+    EXPECT_EQ(result.exitCode, 2) << options.back() << result.err;
+  }
+  EXPECT_EQ(runCli({"clearance", clashing_, "--threshold", "0.1"}).exitCode, 2) << "it needs --all";
+  EXPECT_FALSE(std::filesystem::exists(path("x.json")));
+  EXPECT_THAT(readBytes(path("plate.obj")), HasSubstr("f "));
+}
+
+TEST_F(ClearanceAll, TheFormWithoutItStaysAsItWas) {
+  const auto result = runCli({"clearance", scene_});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("part,other,distance [m]"));
+  EXPECT_THAT(result.out, HasSubstr("Cube,Plate,1,"));
+  EXPECT_THAT(result.out, Not(HasSubstr("verdict")));
+}
+
+}  // namespace
+}  // namespace nearfit::test::clearance_all_test

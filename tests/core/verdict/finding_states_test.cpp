@@ -1,0 +1,125 @@
+#include "core/verdict/finding_states.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace nearfit::finding_states_test {
+namespace {
+
+PartPair pairOf(std::uint32_t part, std::uint32_t other) {
+  return {PartId{part}, PartId{other}};
+}
+
+PairFinding near(PartPair pair, double distance) {
+  PairFinding finding;
+  finding.pair = pair;
+  finding.distance = distance;
+  return finding;
+}
+
+PairFinding clash(PartPair pair, double depth) {
+  PairFinding finding;
+  finding.pair = pair;
+  finding.verdict = PairVerdict::Clash;
+  finding.clash.emplace().freeing = FreeingTranslation{depth, {1, 0, 0}};
+  return finding;
+}
+
+SceneCheck checkOf(std::vector<PairFinding> findings) {
+  SceneCheck check;
+  check.parts = {PartId{1}, PartId{2}, PartId{3}, PartId{4}};
+  check.findings = std::move(findings);
+  return check;
+}
+
+std::vector<PairRecord> saved(const SceneCheck& check, const std::vector<PairRecord>& before = {}) {
+  return recordsOf(compareFindings(check, before));
+}
+
+TEST(FindingStates, WhatWasNotThereIsNewAndWhatIsAsBeforeIsTheSame) {
+  const SceneCheck check = checkOf({near(pairOf(1, 2), 1e-3), clash(pairOf(1, 3), 1e-4)});
+  for (const ComparedFinding& finding : compareFindings(check, {})) {
+    EXPECT_EQ(finding.change, FindingChange::New);
+    EXPECT_EQ(finding.state, FindingState::New);
+    EXPECT_FALSE(finding.before);
+  }
+  for (const ComparedFinding& finding : compareFindings(check, saved(check)))
+    EXPECT_EQ(finding.change, FindingChange::Same);
+}
+
+TEST(FindingStates, NearerDeeperAndAWorseVerdictAreWorseAndTheContraryIsBetter) {
+  const auto changeBetween = [](const PairFinding& before, const PairFinding& now) {
+    const std::vector<PairRecord> records = saved(checkOf({before}));
+    const SceneCheck check = checkOf({now});
+    return compareFindings(check, records).at(0).change;
+  };
+  const PartPair p = pairOf(1, 2);
+  EXPECT_EQ(changeBetween(near(p, 2e-3), near(p, 1e-3)), FindingChange::Worse);
+  EXPECT_EQ(changeBetween(near(p, 1e-3), near(p, 2e-3)), FindingChange::Better);
+  EXPECT_EQ(changeBetween(near(p, 1e-3), near(p, 1.0005e-3)), FindingChange::Same);
+  EXPECT_EQ(changeBetween(near(p, 1e-3), clash(p, 1e-5)), FindingChange::Worse);
+  EXPECT_EQ(changeBetween(clash(p, 1e-5), near(p, 1e-3)), FindingChange::Better);
+  EXPECT_EQ(changeBetween(clash(p, 1e-4), clash(p, 2e-4)), FindingChange::Worse);
+  EXPECT_EQ(changeBetween(clash(p, 2e-4), clash(p, 1e-4)), FindingChange::Better);
+}
+
+TEST(FindingStates, AnAcceptedFindingStaysSoUntilItIsWorse) {
+  const PartPair p = pairOf(1, 2);
+  std::vector<PairRecord> records = saved(checkOf({clash(p, 1e-4)}));
+  records[0].state = FindingState::Accepted;
+  records[0].reason = "pressed in";
+  const SceneCheck same = checkOf({clash(p, 1e-4)}), worse = checkOf({clash(p, 2e-4)});
+  EXPECT_EQ(compareFindings(same, records).at(0).state, FindingState::Accepted);
+  const ComparedFinding now = compareFindings(worse, records).at(0);
+  EXPECT_EQ(now.state, FindingState::New);
+  EXPECT_EQ(now.reason, "pressed in");
+}
+
+TEST(FindingStates, WhatIsGoneIsFixedAndNewWhenItComesBack) {
+  const PartPair p = pairOf(1, 2);
+  const SceneCheck there = checkOf({clash(p, 1e-4)}), gone = checkOf({});
+  std::vector<PairRecord> records = saved(there);
+  const ComparedFinding first = compareFindings(gone, records).at(0);
+  EXPECT_EQ(first.change, FindingChange::Gone);
+  EXPECT_EQ(first.state, FindingState::Fixed);
+  EXPECT_EQ(first.now, nullptr);
+  records = saved(gone, records);
+  ASSERT_EQ(records.size(), 1U);
+  EXPECT_EQ(records[0].verdict, PairVerdict::Clear);
+  EXPECT_EQ(records[0].state, FindingState::Fixed);
+  EXPECT_EQ(compareFindings(gone, records).at(0).change, FindingChange::Same);
+  const ComparedFinding back = compareFindings(there, records).at(0);
+  EXPECT_EQ(back.change, FindingChange::New);
+  EXPECT_EQ(back.state, FindingState::New);
+}
+
+TEST(FindingStates, WhatWasNotCheckedThisTimeStaysAsItWas) {
+  std::vector<PairRecord> records = saved(checkOf({clash(pairOf(1, 2), 1e-4), clash(pairOf(3, 4), 1e-4)}));
+  records[0].state = FindingState::Accepted;
+  records[0].reason = "why not";
+  SceneCheck check = checkOf({});
+  check.parts = {PartId{2}, PartId{3}, PartId{4}};
+  check.leftOut = {{pairOf(3, 4), 0}};
+  const std::vector<PairRecord> after = saved(check, records);
+  ASSERT_EQ(after.size(), 2U);
+  EXPECT_TRUE(after == records);
+}
+
+TEST(FindingStates, TheWorstAndThoseWithAReasonAreKeptWhereThereAreTooMany) {
+  std::vector<PairFinding> findings;
+  for (std::uint32_t i = 0; i < kMaxPairRecords + 10; ++i)
+    findings.push_back(near(pairOf(1, 10 + i), 1e-3 + 1e-9 * i));
+  findings.push_back(clash(pairOf(2, 3), 1e-4));
+  std::vector<PairRecord> said = saved(checkOf({findings[kMaxPairRecords + 9]}));
+  said[0].state = FindingState::Accepted;
+  said[0].reason = "seen";
+  const std::vector<PairRecord> kept = saved(checkOf(findings), said);
+  EXPECT_EQ(kept.size(), kMaxPairRecords);
+  EXPECT_TRUE(std::ranges::is_sorted(kept, {}, &PairRecord::pair));
+  EXPECT_EQ(kept.back().verdict, PairVerdict::Clash);
+  EXPECT_EQ(std::ranges::count(kept, FindingState::Accepted, &PairRecord::state), 1);
+}
+
+}  // namespace
+}  // namespace nearfit::finding_states_test
