@@ -256,7 +256,10 @@ SolidMesh solidOf(const MeshArrays& mesh) {
   std::vector<SolidKernel::Point_3> points;
   std::vector<std::array<std::size_t, 3>> polygons;
   polygons.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    // The corefinement takes it that each has a plane.
+    if (hasNoArea(cornersAt(mesh, i))) throw Stop{VolumeProblem::NoArea};
+    const auto& t = mesh.triangles[i];
     auto& polygon = polygons.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       std::uint32_t& index = indexOf[t[k]];

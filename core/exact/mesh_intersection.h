@@ -42,6 +42,7 @@ enum class VolumeProblem : std::uint8_t {
   None,
   Open,           ///< A mesh is not closed.
   NotManifold,    ///< Edges of a mesh have more than two faces, or its sheets touch in a vertex.
+  NoArea,         ///< A mesh has triangles without area.
   InsideOut,      ///< A mesh does not enclose what it bounds: its faces point inward, or disagree.
   CrossesItself,  ///< A mesh crosses itself.
   TooLarge,       ///< There are more triangles, or pairs of them that meet, than the caller allows.

@@ -394,6 +394,8 @@ const char* textOf(VolumeProblem problem) noexcept {
       return "a mesh is not closed";
     case VolumeProblem::NotManifold:
       return "edges of a mesh have more than two faces";
+    case VolumeProblem::NoArea:
+      return "a mesh has triangles without area";
     case VolumeProblem::InsideOut:
       return "a mesh is inside out";
     case VolumeProblem::CrossesItself:

@@ -126,6 +126,10 @@ TEST(MeshIntersection, WhatIsNoSolidIsRefusedWithAReason) {
   const MeshArrays first = arraysOf(box), second = arraysOf(other);
   EXPECT_EQ(findIntersectionVolume(first, second, 23, kAny).problem, VolumeProblem::TooLarge);
   EXPECT_EQ(findIntersectionVolume(first, second, kAny, 1).problem, VolumeProblem::TooLarge);
+  // A tetrahedron with a sliver without area in an edge: (0, 1, 2) on one line.
+  const TriangleMesh flat({{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {2, 0, 0}, {0, 2, 0}},
+                          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 4, 2}, {0, 3, 4}, {2, 4, 3}});
+  EXPECT_EQ(volumeOf(flat, other).problem, VolumeProblem::NoArea);
   // Two tetrahedra with a common edge.
   const TriangleMesh hinge(
       {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}},
