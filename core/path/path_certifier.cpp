@@ -30,13 +30,15 @@ constexpr double kNowhere = std::numeric_limits<double>::infinity();
 constexpr double kRoomTaken = 0.99;
 /// Stated bounds leave this share of the travel to rounding; together with kRoomTaken below the distance.
 constexpr double kTravelSlack = 1.005;
+/// And this share of the least room, for parts that hardly move.
+constexpr double kLeastSlack = 0.002;
 /// Distances are looked for this much beyond what a stretch needs, so that rounding leaves no remainder of it.
 constexpr double kReachRounding = 1.001;
 /// Least room, as a share of the separation: ends the search where a path grazes.
 constexpr double kLeastRoom = 1.0 / 16.0;
 /// Separations finer than this share of the lengths involved are refused: rounding (path_bodies.h) must be far below
 /// the least room.
-constexpr double kLeastSeparation = 1e-10;
+constexpr double kLeastSeparation = 1e-9;
 /// Levels of halving by which boxes alone are tried, and of what is left to a search: up to 256 stretches a pair.
 constexpr unsigned kBoxLevels = 8;
 
@@ -155,7 +157,7 @@ class PairAdvance {
   ProvenStretch stretchOf(double from, double anchor, double to) const noexcept {
     const double middle = travel_.at(anchor);
     const double moved = std::max(middle - travel_.at(from), travel_.at(to) - middle);
-    return {from, anchor, to, separation_ + kTravelSlack * moved};
+    return {from, anchor, to, separation_ + kTravelSlack * moved + kLeastSlack * leastRoom()};
   }
 
   /// Lower bound on the distance of the two meshes as loaded [m]; at least `enough` if nothing is nearer.
@@ -325,9 +327,10 @@ double defaultSeparation(const Scene& scene, const AssemblyPath& path) {
   // As for parts that touch: touchTolerance() in core/report/clearance.h.
   constexpr double kShare = 1e-6, kMax = 1e-6;
   double size = kNowhere;
-  for (const PathPart& moving : pathBodies(scene, path).moving)
+  const PathBodies bodies = pathBodies(scene, path);
+  for (const PathPart& moving : bodies.moving)
     size = std::min(size, moving.part->geometry->mesh.bounds().diagonal());
-  return std::clamp(kShare * size, std::numeric_limits<double>::min(), kMax);
+  return std::max(std::min(kShare * size, kMax), 2.0 * kLeastSeparation * reachOf(bodies));
 }
 
 PathCertifier::PathCertifier(const Scene& scene, const AssemblyPath& path, double separation,
@@ -340,7 +343,7 @@ PathCertifier::PathCertifier(const Scene& scene, const AssemblyPath& path, doubl
   const double least = kLeastSeparation * reachOf(search->bodies);
   if (!(separation >= least) || !std::isfinite(separation) || !(separation > 0.0)) {
     throw UsageError("separation", fmt::format("{} m is not a separation that can be certified", separation),
-                     fmt::format("give at least {:.1g} m", std::max(least, 1e-12)));
+                     fmt::format("give at least {:.1g} m", 2.0 * least));
   }
   std::vector<PartGeometryPtr> geometries;
   for (const PathPart& moving : search->bodies.moving)

@@ -47,8 +47,8 @@ struct PathSegment {
   RigidTransform from, to;  ///< worldFromLead
 };
 
-/// Separation to certify with if none is given: a millionth of the diagonal of the smallest moving part, at most 1 um.
-/// Throws UsageError as pathBodies().
+/// Separation to certify with if none is given: a millionth of the diagonal of the smallest moving part, at most 1 um,
+/// unless parts are so far away that rounding needs more. Throws UsageError as pathBodies().
 double defaultSeparation(const Scene& scene, const AssemblyPath& path);
 
 /// Proves that paths of a part, or of parts that move as one, keep a separation from all other visible parts: not at
