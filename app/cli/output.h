@@ -35,6 +35,13 @@ class ReportedFailure : public std::exception {
   const char* what() const noexcept override { return "the command failed"; }
 };
 
+/// Thrown by a command that has printed a verdict which is no, such as a path that is not proven free: exit code 3, no
+/// further line.
+class NegativeVerdict : public std::exception {
+ public:
+  const char* what() const noexcept override { return "the verdict is no"; }
+};
+
 /// Calls `report` for each file. One that cannot be read is told on stderr, and the others still follow. Throws
 /// ReportedFailure at the end if there was one.
 void reportEach(std::span<const std::string> files,
