@@ -131,7 +131,8 @@ class PairAdvance {
       const double room = kRoomTaken * (distance - separation_);
       if (!(room >= kRoomTaken * leastRoom())) {
         first = {anchor, std::max(distance, 0.0), false};
-        if (at.from < anchor) open.push_back({at.from, anchor, 0.5 * reach});
+        // Nearer to the true first place than this nobody needs it.
+        if (travel_.at(anchor) - begin > leastRoom()) open.push_back({at.from, anchor, 0.5 * reach});
         continue;
       }
       const double middle = travel_.at(anchor);

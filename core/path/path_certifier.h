@@ -25,7 +25,7 @@ struct PairProof {
   std::vector<ProvenStretch> stretches;
 };
 
-/// The first place where a path is not proven free.
+/// The first place where a path is not proven free, to within a travel of a 16th of the separation.
 struct UnprovenPlace {
   double place = 0.0, time = 0.0;  ///< Place on the path, time [s].
   PartId part{}, other{};
