@@ -24,6 +24,9 @@
 #include "core/path/path_clearance.h"
 #include "core/path/path_file.h"
 #include "core/path/path_thinning.h"
+#include "core/path/swept_volume.h"
+#include "core/report/mesh_export.h"
+#include "core/report/scene_export.h"
 #include "core/scene/scene_file.h"
 #include "core/servo/motion_reader.h"
 #include "core/text/json_text.h"
@@ -32,8 +35,8 @@ namespace nearfit::cli {
 namespace {
 
 struct PathOptions {
-  std::string input, scene, part, group, out, csv, gltf, clearance;
-  std::optional<double> from, to, thin, smooth, separation, within;
+  std::string input, scene, part, group, out, csv, gltf, clearance, swept, unit = "mm";
+  std::optional<double> from, to, thin, smooth, separation, within, resolution;
   bool isJson = false;
 };
 
@@ -45,18 +48,29 @@ constexpr const char* kPathFooter =
     "--clearance writes t_s and a column NAME [m] for each part that comes within the range, inf beyond it.\n"
     "Example: nearfit-cli path felt.csv fit.nearfit -o in.nfpath --from 2 --to 9.5 --thin 1e-4 --gltf in.glb";
 
+std::optional<MeshFileKind> sweptKindOf(const PathOptions& options) {
+  const std::optional<ExportKind> kind = exportKindOf(options.swept);
+  return kind ? meshKindOf(*kind) : std::nullopt;
+}
+
 void checkPathOptions(const PathOptions& options) {
   for (const auto& [name, value] : {std::pair("--thin", options.thin), std::pair("--smooth", options.smooth),
                                     std::pair("--separation", options.separation),
-                                    std::pair("--within", options.within)}) {
+                                    std::pair("--within", options.within),
+                                    std::pair("--resolution", options.resolution)}) {
     if (value) checkPositive(name, *value);
   }
   if (options.within && options.clearance.empty())
     throw UsageError("--within", "it is the range of --clearance, which is not given", "give both, or none");
+  if (options.resolution && options.swept.empty())
+    throw UsageError("--resolution", "it is that of --swept, which is not given", "give both, or none");
+  if (!options.swept.empty() && !sweptKindOf(options))
+    throw UsageError(options.swept, "its suffix is not that of a mesh file", "use .stl, .obj or .ply");
+  static_cast<void>(parseUnit(options.unit));
   if (options.separation && !options.thin && !options.smooth)
     throw UsageError("--separation", "nothing is proven without --thin or --smooth",
                      "give one of them, or certify the path (nearfit-cli certify)");
-  const std::vector<std::string> outputs{options.out, options.csv, options.gltf, options.clearance};
+  const std::vector<std::string> outputs{options.out, options.csv, options.gltf, options.clearance, options.swept};
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (!outputs[i].empty() && !outputs[k].empty() && isSameTarget(outputs[i], outputs[k]))
@@ -71,7 +85,7 @@ void checkPathTargets(const PathOptions& options, const Scene& scene) {
   for (const Scene::PartPtr& part : scene.parts()) {
     if (part->geometry) inputs.push_back(part->geometry->file);
   }
-  for (const std::string& target : {options.out, options.csv, options.gltf, options.clearance}) {
+  for (const std::string& target : {options.out, options.csv, options.gltf, options.clearance, options.swept}) {
     if (!target.empty()) checkTarget(target, inputs);
   }
 }
@@ -99,6 +113,18 @@ AssemblyPath pathOfInput(const PathOptions& options, const Scene& scene) {
     throw UsageError("--part", "a path file names its parts", "leave it out");
   const AssemblyPath path = readPathFile(options.input);
   return options.from || options.to ? trimmed(path, from, to) : path;
+}
+
+/// Writes the swept volume as a mesh of one part; returns its number of triangles.
+std::size_t exportSwept(const PathOptions& options, const Scene& scene, const AssemblyPath& path, double resolution) {
+  const auto geometry = std::make_shared<PartGeometry>();
+  geometry->mesh = sweptVolume(scene, path, resolution);
+  Part part;
+  part.name = "Swept volume";
+  part.geometry = geometry;
+  const std::vector<Scene::PartPtr> parts{std::make_shared<const Part>(std::move(part))};
+  exportMesh(parts, *sweptKindOf(options), parseUnit(options.unit), options.swept);
+  return geometry->mesh.triangles().size();
 }
 
 void runPath(const PathOptions& options) {
@@ -142,6 +168,11 @@ void runPath(const PathOptions& options) {
     if (least) summary["min_at"] = least->time;
     if (least) summary["min_to"] = scene.get(least->other).name;
   }
+  if (!options.swept.empty()) {
+    const double resolution = options.resolution ? *options.resolution : defaultSweptResolution(scene, path);
+    summary["swept_triangles"] = exportSwept(options, scene, path, resolution);
+    summary["resolution"] = resolution;
+  }
   printCacheWarnings();
   if (options.isJson) return print(prettyJson(summary));
   for (const auto& [key, value] : summary.items())
@@ -175,6 +206,15 @@ void addPathCommand(CLI::App& program) {
       ->type_name("FILE.csv");
   command->add_option("--within", options->within,
                       "Range of --clearance [m]; default: a tenth of the part's radius");
+  command->add_option("--swept", options->swept, "Also write the space that the part passes as a mesh")
+      ->type_name("FILE.(stl|obj|ply)");
+  command->add_option("--resolution", options->resolution,
+                      "Of --swept: the mesh holds all that is passed, and is nowhere farther than this from it [m]; "
+                      "default: a fiftieth of the part");
+  command
+      ->add_option("--unit", options->unit,
+                   "Unit of the coordinates of --swept: m, cm, mm, um, in, ft, or a number of metres")
+      ->capture_default_str();
   command->add_flag("--json", options->isJson, "Print the summary as one JSON object");
   command->footer(kPathFooter);
   command->callback([options] { runPath(*options); });

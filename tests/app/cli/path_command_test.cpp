@@ -56,7 +56,8 @@ class PathCommand : public PlateAndCube {
 
 TEST_F(PathCommand, ARecordingIsTrimmedThinnedAndCertified) {
   makePath({"--from", "0.1", "--to", "0.9", "--thin", "0.001", "--csv", path("poses.csv"), "--gltf", path("in.glb"),
-            "--clearance", path("near.csv"), "--within", "2"});
+            "--clearance", path("near.csv"), "--within", "2", "--swept", path("swept.ply"), "--resolution", "0.2"});
+  EXPECT_THAT(readBytes(path("swept.ply")), StartsWith("ply"));
   const auto poses = linesOf(readBytes(path("poses.csv")));
   ASSERT_GE(poses.size(), 4U);
   EXPECT_LT(poses.size(), 20U) << "two straight motions";
@@ -118,6 +119,9 @@ TEST_F(PathCommand, WhatMakesNoSenseIsWrongUsage) {
            {"path", path("felt.csv"), scene_, "-o", path("x"), "--separation", "0.1"},
            {"path", path("felt.csv"), scene_, "-o", path("x"), "--within", "0.1"},
            {"path", path("felt.csv"), scene_, "-o", path("x"), "--csv", path("x")},
+           {"path", path("felt.csv"), scene_, "-o", path("x"), "--resolution", "0.1"},
+           {"path", path("felt.csv"), scene_, "-o", path("x"), "--swept", path("swept.txt")},
+           {"path", path("felt.csv"), scene_, "-o", path("x"), "--swept", path("swept.stl"), "--unit", "parsec"},
            {"path", path("felt.csv"), scene_, "-o", path("felt.csv")},
            {"path", path("felt.csv"), scene_, "-o", path("plate.obj")},
            {"path", path("felt.csv"), scene_, "-o", path("x"), "--from", "3"},
