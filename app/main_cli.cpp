@@ -19,7 +19,8 @@ constexpr const char* kFooter =
     "nearfit-cli COMMAND --help describes the options and output of a command.\n"
     "Lengths are in metres, forces in newtons, times in seconds unless said otherwise; quaternions are w, x, "
     "y, z.\n"
-    "Exit code: 0 for success, 2 for wrong usage, 3 where a verdict is no (certify, verify), 1 for any other\n"
+    "Exit code: 0 for success, 2 for wrong usage, 3 where a verdict is no (certify, verify), 1 for any "
+    "other\n"
     "failure, with one line on stderr.";
 
 int report(const char* message, int exitCode) {

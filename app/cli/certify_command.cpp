@@ -35,8 +35,10 @@ struct CertifyOptions {
 
 constexpr const char* kCertifyFooter =
     "Proves that everywhere on the path, not only at its poses, the surfaces of what moves and of all other\n"
-    "visible parts are at least the separation apart, and that none is inside another. A path is refused where\n"
-    "it comes nearer than 17/16 of the separation. The certificate holds the path, hashes of the scene file and\n"
+    "visible parts are at least the separation apart, and that none is inside another. A path is refused "
+    "where\n"
+    "it comes nearer than 17/16 of the separation. The certificate holds the path, hashes of the scene file "
+    "and\n"
     "of all meshes, and the bounds of the proof; nearfit-cli verify proves it anew.\n"
     "Exit code 3, and no certificate, if the path is not proven free; the first such place is printed.\n"
     "Example: nearfit-cli certify in.nfpath fit.nearfit -o in.nfcert --separation 1e-5";
@@ -69,11 +71,13 @@ VerdictJson unprovenJson(const Scene& scene, const UnprovenPlace& place, double 
 std::string unprovenSentence(const Scene& scene, const UnprovenPlace& place, double separation) {
   const std::string &part = scene.get(place.part).name, &other = scene.get(place.other).name;
   if (place.isInside) {
-    return fmt::format("not certified: \"{}\" meets \"{}\", or one is inside the other, at the start of the path",
-                       part, other);
+    return fmt::format(
+        "not certified: \"{}\" meets \"{}\", or one is inside the other, at the start of the path", part,
+        other);
   }
-  return fmt::format("not certified: at {:.6g} s \"{}\" and \"{}\" are {:.6g} m apart, which does not prove {:.6g} m",
-                     place.time, part, other, place.distance, separation);
+  return fmt::format(
+      "not certified: at {:.6g} s \"{}\" and \"{}\" are {:.6g} m apart, which does not prove {:.6g} m",
+      place.time, part, other, place.distance, separation);
 }
 
 void runCertify(const CertifyOptions& options) {
@@ -96,15 +100,16 @@ void runCertify(const CertifyOptions& options) {
   std::size_t stretches = 0;
   for (const PairProof& pair : proof.pairs)
     stretches += pair.stretches.size();
-  printVerdict({{"free", true},
-                {"separation", separation},
-                {"poses", path.poses.size()},
-                {"pairs", proof.pairs.size()},
-                {"stretches", stretches},
-                {"certificate", options.out}},
-               fmt::format("certified: {} poses keep {:.6g} m from each other part, by {} stretches of {} pairs",
-                           path.poses.size(), separation, stretches, proof.pairs.size()),
-               options.isJson);
+  printVerdict(
+      {{"free", true},
+       {"separation", separation},
+       {"poses", path.poses.size()},
+       {"pairs", proof.pairs.size()},
+       {"stretches", stretches},
+       {"certificate", options.out}},
+      fmt::format("certified: {} poses keep {:.6g} m from each other part, by {} stretches of {} pairs",
+                  path.poses.size(), separation, stretches, proof.pairs.size()),
+      options.isJson);
 }
 
 struct VerifyOptions {
@@ -113,7 +118,8 @@ struct VerifyOptions {
 };
 
 constexpr const char* kVerifyFooter =
-    "Proves the certificate anew, by code that shares no search with what made it, and checks that scene file,\n"
+    "Proves the certificate anew, by code that shares no search with what made it, and checks that scene "
+    "file,\n"
     "meshes, poses and path are those that it is about. PATH, if given, must be the certified path.\n"
     "Exit code 3 if anything differs or is not proven; what it is is printed.\n"
     "Example: nearfit-cli verify in.nfcert fit.nearfit in.nfpath";
@@ -152,13 +158,14 @@ void runVerify(const VerifyOptions& options) {
   if (!changed.empty()) refuse("the mesh file " + changed.front().string() + " was changed", options.isJson);
   const Verification verified = verifyCertificate(certificate, scene, sceneSha256, path);
   if (!verified.isProven()) refuse(verified.problem, options.isJson);
-  printVerdict({{"verified", true},
-                {"separation", certificate.separation},
-                {"poses", certificate.path.poses.size()},
-                {"stretches", verified.stretches}},
-               fmt::format("verified: {} poses keep {:.6g} m from each other part, by {} stretches proven anew",
-                           certificate.path.poses.size(), certificate.separation, verified.stretches),
-               options.isJson);
+  printVerdict(
+      {{"verified", true},
+       {"separation", certificate.separation},
+       {"poses", certificate.path.poses.size()},
+       {"stretches", verified.stretches}},
+      fmt::format("verified: {} poses keep {:.6g} m from each other part, by {} stretches proven anew",
+                  certificate.path.poses.size(), certificate.separation, verified.stretches),
+      options.isJson);
 }
 
 }  // namespace
@@ -180,7 +187,9 @@ void addCertifyCommand(CLI::App& program) {
 void addVerifyCommand(CLI::App& program) {
   const auto options = std::make_shared<VerifyOptions>();
   CLI::App* command = program.add_subcommand("verify", "Proves the certificate of a path anew.");
-  command->add_option("certificate", options->certificate, "Certificate (*.nfcert)")->required()->type_name("CERT");
+  command->add_option("certificate", options->certificate, "Certificate (*.nfcert)")
+      ->required()
+      ->type_name("CERT");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required()->type_name("SCENE");
   command->add_option("path", options->path, "Path file that it must be about")->type_name("PATH");
   command->add_flag("--json", options->isJson, "Print the verdict as one JSON object");

@@ -43,7 +43,8 @@ struct PathOptions {
 constexpr const char* kPathFooter =
     "INPUT is a recording (*.csv, of nearfit or of nearfit-cli place --record) or a path file. Between two\n"
     "poses of a path the centre of what moves goes straight, and it turns about that at a constant rate.\n"
-    "--thin and --smooth change the path only where it is proven that the part keeps the separation from all\n"
+    "--thin and --smooth change the path only where it is proven that the part keeps the separation from "
+    "all\n"
     "other visible parts; elsewhere the original stays.\n"
     "--clearance writes t_s and a column NAME [m] for each part that comes within the range, inf beyond it.\n"
     "Example: nearfit-cli path felt.csv fit.nearfit -o in.nfpath --from 2 --to 9.5 --thin 1e-4 --gltf in.glb";
@@ -54,10 +55,10 @@ std::optional<MeshFileKind> sweptKindOf(const PathOptions& options) {
 }
 
 void checkPathOptions(const PathOptions& options) {
-  for (const auto& [name, value] : {std::pair("--thin", options.thin), std::pair("--smooth", options.smooth),
-                                    std::pair("--separation", options.separation),
-                                    std::pair("--within", options.within),
-                                    std::pair("--resolution", options.resolution)}) {
+  for (const auto& [name, value] :
+       {std::pair("--thin", options.thin), std::pair("--smooth", options.smooth),
+        std::pair("--separation", options.separation), std::pair("--within", options.within),
+        std::pair("--resolution", options.resolution)}) {
     if (value) checkPositive(name, *value);
   }
   if (options.within && options.clearance.empty())
@@ -70,7 +71,8 @@ void checkPathOptions(const PathOptions& options) {
   if (options.separation && !options.thin && !options.smooth)
     throw UsageError("--separation", "nothing is proven without --thin or --smooth",
                      "give one of them, or certify the path (nearfit-cli certify)");
-  const std::vector<std::string> outputs{options.out, options.csv, options.gltf, options.clearance, options.swept};
+  const std::vector<std::string> outputs{options.out, options.csv, options.gltf, options.clearance,
+                                         options.swept};
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (!outputs[i].empty() && !outputs[k].empty() && isSameTarget(outputs[i], outputs[k]))
@@ -85,7 +87,8 @@ void checkPathTargets(const PathOptions& options, const Scene& scene) {
   for (const Scene::PartPtr& part : scene.parts()) {
     if (part->geometry) inputs.push_back(part->geometry->file);
   }
-  for (const std::string& target : {options.out, options.csv, options.gltf, options.clearance, options.swept}) {
+  for (const std::string& target :
+       {options.out, options.csv, options.gltf, options.clearance, options.swept}) {
     if (!target.empty()) checkTarget(target, inputs);
   }
 }
@@ -116,7 +119,8 @@ AssemblyPath pathOfInput(const PathOptions& options, const Scene& scene) {
 }
 
 /// Writes the swept volume as a mesh of one part; returns its number of triangles.
-std::size_t exportSwept(const PathOptions& options, const Scene& scene, const AssemblyPath& path, double resolution) {
+std::size_t exportSwept(const PathOptions& options, const Scene& scene, const AssemblyPath& path,
+                        double resolution) {
   const auto geometry = std::make_shared<PartGeometry>();
   geometry->mesh = sweptVolume(scene, path, resolution);
   Part part;
@@ -159,7 +163,8 @@ void runPath(const PathOptions& options) {
   if (!options.clearance.empty()) {
     // As for maps of clearance: farther away nothing is near.
     constexpr double kShareOfSize = 0.05;
-    const double range = options.within ? *options.within : 2.0 * kShareOfSize * pathBodies(scene, path).radius;
+    const double range =
+        options.within ? *options.within : 2.0 * kShareOfSize * pathBodies(scene, path).radius;
     const std::vector<PathClearance> clearances = clearancesAlong(scene, path, range);
     atomicWrite(options.clearance, pathClearanceCsv(scene, path, clearances));
     const std::optional<LeastClearance> least = leastOf(clearances, path);
@@ -176,7 +181,8 @@ void runPath(const PathOptions& options) {
   printCacheWarnings();
   if (options.isJson) return print(prettyJson(summary));
   for (const auto& [key, value] : summary.items())
-    print(oneLine(fmt::format("{} {}", key, value.is_string() ? value.get<std::string>() : value.dump())) + "\n");
+    print(oneLine(fmt::format("{} {}", key, value.is_string() ? value.get<std::string>() : value.dump())) +
+          "\n");
 }
 
 }  // namespace
@@ -201,16 +207,18 @@ void addPathCommand(CLI::App& program) {
                       "What --thin and --smooth keep from other parts [m]; default: a millionth of the part, "
                       "at most 1 um");
   command->add_option("--csv", options->csv, "Also write the poses as CSV")->type_name("FILE.csv");
-  command->add_option("--gltf", options->gltf, "Also write the path as glTF animation")->type_name("FILE.glb");
+  command->add_option("--gltf", options->gltf, "Also write the path as glTF animation")
+      ->type_name("FILE.glb");
   command->add_option("--clearance", options->clearance, "Also write the clearance at each pose as CSV")
       ->type_name("FILE.csv");
   command->add_option("--within", options->within,
                       "Range of --clearance [m]; default: a tenth of the part's radius");
   command->add_option("--swept", options->swept, "Also write the space that the part passes as a mesh")
       ->type_name("FILE.(stl|obj|ply)");
-  command->add_option("--resolution", options->resolution,
-                      "Of --swept: the mesh holds all that is passed, and is nowhere farther than this from it [m]; "
-                      "default: a fiftieth of the part");
+  command->add_option(
+      "--resolution", options->resolution,
+      "Of --swept: the mesh holds all that is passed, and is nowhere farther than this from it [m]; "
+      "default: a fiftieth of the part");
   command
       ->add_option("--unit", options->unit,
                    "Unit of the coordinates of --swept: m, cm, mm, um, in, ft, or a number of metres")

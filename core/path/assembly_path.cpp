@@ -93,7 +93,8 @@ void checkPath(const AssemblyPath& path, const std::string& where) {
                        "give poses in order of time");
     }
     if (!(turnBetween(path.poses[i - 1].worldFromLead, path.poses[i].worldFromLead) <= kMaxPathTurn)) {
-      throw UsageError(where, fmt::format("pose {} is turned by more than 170 degrees from the one before", i),
+      throw UsageError(where,
+                       fmt::format("pose {} is turned by more than 170 degrees from the one before", i),
                        "add a pose between them");
     }
   }
@@ -164,9 +165,9 @@ AssemblyPath trimmed(const AssemblyPath& path, double from, double to) {
   }
   add({timeAt(path, last), poseAt(path, last)});
   if (result.poses.size() < 2)
-    throw UsageError(where, fmt::format("there is no motion from {} to {} s", from, to),
-                     fmt::format("choose times from {} to {} s", path.poses.front().time,
-                                 path.poses.back().time));
+    throw UsageError(
+        where, fmt::format("there is no motion from {} to {} s", from, to),
+        fmt::format("choose times from {} to {} s", path.poses.front().time, path.poses.back().time));
   return result;
 }
 

@@ -81,8 +81,8 @@ RigidTransform poseField(const JsonField& part) {
 }
 
 CertifiedPart partField(const JsonField& json) {
-  return {json.at("name").text(kMaxPartNameBytes), json.at("moving").isTrue(), hashField(json.at("sha256"), false),
-          poseField(json)};
+  return {json.at("name").text(kMaxPartNameBytes), json.at("moving").isTrue(),
+          hashField(json.at("sha256"), false), poseField(json)};
 }
 
 CertifiedPair pairField(const JsonField& json, const Certificate& certificate, std::size_t& room) {
@@ -97,8 +97,7 @@ CertifiedPair pairField(const JsonField& json, const Certificate& certificate, s
   for (std::size_t i = 0; i < count; ++i) {
     const JsonField stretch = stretches.at(i);
     stretch.requireSize(3);
-    pair.stretches.push_back(
-        {from, stretch.at(0).number(), stretch.at(1).number(), stretch.at(2).number()});
+    pair.stretches.push_back({from, stretch.at(0).number(), stretch.at(1).number(), stretch.at(2).number()});
     from = pair.stretches.back().to;
   }
   return pair;
@@ -113,7 +112,8 @@ void checkHashAtEnd(std::string_view text, const std::filesystem::path& file) {
   const std::string_view body = text.substr(0, text.size() - tail);
   const std::string_view hash = text.substr(text.size() - tail + kBeforeHash.size(), kHashDigits);
   if (sha256OfBytes(body) != hash)
-    throw FileError(file.string(), "it was changed after it was written: its bytes do not have the hash at its end",
+    throw FileError(file.string(),
+                    "it was changed after it was written: its bytes do not have the hash at its end",
                     kMakeAnew);
 }
 
@@ -145,7 +145,8 @@ std::vector<CertifiedPart> certifiedParts(const PathBodies& bodies) {
   std::vector<std::pair<const PartGeometry* const, std::string>*> entries;
   for (auto& entry : hashes)
     entries.push_back(&entry);
-  parallelFor(entries.size(), [&](std::size_t i) { entries[i]->second = meshSha256(entries[i]->first->mesh); });
+  parallelFor(entries.size(),
+              [&](std::size_t i) { entries[i]->second = meshSha256(entries[i]->first->mesh); });
   for (std::size_t i = 0; i < parts.size(); ++i)
     parts[i].meshSha256 = hashes.at(geometryOf[i]);
   return parts;
@@ -154,8 +155,8 @@ std::vector<CertifiedPart> certifiedParts(const PathBodies& bodies) {
 Certificate certificateOf(const Scene& scene, const AssemblyPath& path, const PathProof& proof,
                           std::string sceneSha256) {
   const PathBodies bodies = pathBodies(scene, path);
-  Certificate certificate{"Nearfit " NEARFIT_VERSION, proof.separation,       std::move(sceneSha256), path,
-                          certifiedParts(bodies),     {}};
+  Certificate certificate{
+      "Nearfit " NEARFIT_VERSION, proof.separation, std::move(sceneSha256), path, certifiedParts(bodies), {}};
   std::map<PartId, std::size_t> indices;
   for (const PathPart& moving : bodies.moving)
     indices.emplace(moving.part->id, indices.size());
@@ -205,7 +206,8 @@ Certificate parseCertificate(std::string_view text, const std::filesystem::path&
   if (hashField(root.at("pathSha256"), false) != hashOfPath(certificate.path))
     root.at("pathSha256").fail("the path does not have this hash", kMakeAnew);
   const JsonField parts = root.at("parts"), pairs = root.at("pairs");
-  if (parts.size() > kMaxCertifiedParts) parts.fail(fmt::format("it has more than {} elements", kMaxCertifiedParts));
+  if (parts.size() > kMaxCertifiedParts)
+    parts.fail(fmt::format("it has more than {} elements", kMaxCertifiedParts));
   for (std::size_t i = 0; i < parts.size(); ++i)
     certificate.parts.push_back(partField(parts.at(i)));
   std::size_t room = kMaxStretches;

@@ -60,13 +60,13 @@ class GlbBuilder {
     json_["scenes"] = only({{"nodes", GltfJson::array({0})}});
     // The first node turns z up to y up.
     const double half = std::sqrt(0.5);
-    nodes_.push_back({{"name", "Nearfit"}, {"rotation", {-half, 0.0, 0.0, half}}, {"children", GltfJson::array()}});
+    nodes_.push_back(
+        {{"name", "Nearfit"}, {"rotation", {-half, 0.0, 0.0, half}}, {"children", GltfJson::array()}});
     const std::size_t moved = addNode(0, {{"name", "Path of " + path.parts.front()}});
     nodes_[moved]["translation"] = vectorJson(path.poses.front().worldFromLead.applyToPoint(path.centre));
     nodes_[moved]["rotation"] = rotationJson(path.poses.front().worldFromLead.rotation);
     for (const PathPart& part : bodies.moving) {
-      addPart(moved, *part.part,
-              {part.leadFromPart.rotation, part.leadFromPart.translation - path.centre});
+      addPart(moved, *part.part, {part.leadFromPart.rotation, part.leadFromPart.translation - path.centre});
     }
     for (const Scene::PartPtr& part : bodies.others)
       addPart(0, *part, part->worldFromPart);
@@ -84,7 +84,8 @@ class GlbBuilder {
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::size_t total = 12 + 8 + text.size() + 8 + data_.size();
     if (total > std::numeric_limits<std::uint32_t>::max())
-      throw UsageError("glTF", "the scene is too large for one file of 4 GiB", "hide parts that are not needed");
+      throw UsageError("glTF", "the scene is too large for one file of 4 GiB",
+                       "hide parts that are not needed");
     std::string file;
     file.reserve(total);
     for (const std::uint32_t word : {kGlbMagic, kGlbVersion, static_cast<std::uint32_t>(total),
@@ -168,7 +169,8 @@ class GlbBuilder {
         appendWord(data_, index);
     }
     Shape shape;
-    shape.positions = addAccessor({positions, ends, kVertexTarget}, kGltfFloat, mesh.vertices().size(), "VEC3");
+    shape.positions =
+        addAccessor({positions, ends, kVertexTarget}, kGltfFloat, mesh.vertices().size(), "VEC3");
     // They must be those of the numbers in the buffer.
     accessors_.back()["min"] = vectorJson(box.lower);
     accessors_.back()["max"] = vectorJson(box.upper);

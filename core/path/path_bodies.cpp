@@ -87,8 +87,8 @@ PathBodies pathBodies(const Scene& scene, const AssemblyPath& path) {
   }
   const RigidTransform leadFromWorld = bodies.worldFromLead.inverse();
   for (const std::string& name : path.parts) {
-    const auto part =
-        std::ranges::find(scene.parts(), name, [](const Scene::PartPtr& p) -> const std::string& { return p->name; });
+    const auto part = std::ranges::find(
+        scene.parts(), name, [](const Scene::PartPtr& p) -> const std::string& { return p->name; });
     // A part alone counts, seen or not.
     if (!hasTriangles(**part) || (own.size() > 1 && !(*part)->isVisible)) continue;
     bodies.moving.push_back(movingPartOf(*part, leadFromWorld, path.centre));
@@ -151,10 +151,12 @@ RigidTransform otherFromPart(const Part& other, const RigidTransform& worldFromL
   return (other.worldFromPart.inverse() * (worldFromLead * moving.leadFromPart)).normalized();
 }
 
-double placeRounding(const Part& other, const RigidTransform& worldFromLead, const PathPart& moving) noexcept {
+double placeRounding(const Part& other, const RigidTransform& worldFromLead,
+                     const PathPart& moving) noexcept {
   return kPlaceRounding *
          (glm::length(other.worldFromPart.translation) + glm::length(worldFromLead.translation) +
-          glm::length(moving.leadFromPart.translation) + 3.0 * moving.part->geometry->mesh.bounds().largestCoordinate() +
+          glm::length(moving.leadFromPart.translation) +
+          3.0 * moving.part->geometry->mesh.bounds().largestCoordinate() +
           3.0 * other.geometry->mesh.bounds().largestCoordinate());
 }
 

@@ -183,7 +183,8 @@ class PairAdvance {
                               poseOf(anchor)) -
                        slackAt(anchor);
     // As much is left to rounding as by distances.
-    if (kRoomTaken * (gap - separation_) >= std::max((whole.bound - separation_) / kTravelSlack, leastRoom())) {
+    if (kRoomTaken * (gap - separation_) >=
+        std::max((whole.bound - separation_) / kTravelSlack, leastRoom())) {
       proven.push_back(whole);
     } else if (levels == 0 || !(anchor > from) || !(anchor < to)) {
       open.push_back({from, to, kNowhere});
@@ -290,9 +291,12 @@ struct PathCertifier::Search {
     proof.separation = separation;
     const auto consider = [&](std::size_t pair, const Grazing& grazing) {
       if (grazing.place == kNowhere || (proof.unproven && grazing.place >= proof.unproven->place)) return;
-      proof.unproven = UnprovenPlace{grazing.place,           timeAt(path, grazing.place),
-                                     pairs[pair].part->part->id, pairs[pair].other->id,
-                                     grazing.distance,        grazing.isInside};
+      proof.unproven = UnprovenPlace{grazing.place,
+                                     timeAt(path, grazing.place),
+                                     pairs[pair].part->part->id,
+                                     pairs[pair].other->id,
+                                     grazing.distance,
+                                     grazing.isInside};
     };
     for (std::size_t i = 0; i < pairs.size(); ++i)
       consider(i, work[i].start);

@@ -35,8 +35,8 @@ struct UnprovenPlace {
 
 /// What certifying a path gives.
 struct PathProof {
-  double separation = 0.0;         ///< [m]
-  std::vector<PairProof> pairs;    ///< Empty if the path is not proven.
+  double separation = 0.0;       ///< [m]
+  std::vector<PairProof> pairs;  ///< Empty if the path is not proven.
   std::optional<UnprovenPlace> unproven;
 
   bool isFree() const noexcept { return !unproven.has_value(); }

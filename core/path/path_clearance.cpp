@@ -58,9 +58,8 @@ std::vector<PathClearance> clearancesAlong(const Scene& scene, const AssemblyPat
     throw UsageError("path", fmt::format("{} m is not a valid range", range), "give a length greater than 0");
   PathBodies bodies = pathBodies(scene, path);
   std::vector<char> isNear(bodies.others.size(), 0);
-  parallelFor(isNear.size(), [&](std::size_t i) {
-    isNear[i] = isEverNear(bodies, *bodies.others[i], path, range) ? 1 : 0;
-  });
+  parallelFor(isNear.size(),
+              [&](std::size_t i) { isNear[i] = isEverNear(bodies, *bodies.others[i], path, range) ? 1 : 0; });
   std::vector<PartGeometryPtr> geometries;
   for (const PathPart& moving : bodies.moving)
     geometries.push_back(moving.part->geometry);

@@ -149,7 +149,8 @@ ChangedPath smoothed(const AssemblyPath& path, const PathCertifier& certifier, d
     std::vector<PathSegment> segments;
     for (std::size_t i = 1 + round % 2; i + 1 < poses.size(); i += 2) {
       const RigidTransform pose = smoothedPose(poses[i - 1], poses[i], poses[i + 1], path.centre);
-      const double moved = displacementBound(path.poses[i].worldFromLead, pose, path.centre, certifier.radius());
+      const double moved =
+          displacementBound(path.poses[i].worldFromLead, pose, path.centre, certifier.radius());
       const double step = displacementBound(poses[i].worldFromLead, pose, path.centre, certifier.radius());
       if (moved > tolerance || step < kLeastStep * tolerance) continue;
       asked.push_back(i);

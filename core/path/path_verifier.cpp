@@ -95,7 +95,8 @@ class WayLength {
     const glm::dquat chord = to - a.rotation;
     const double angle = 4.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(glm::dot(chord, chord))));
     // The axis, in the frame of the part.
-    const glm::dquat turn = glm::conjugate(part.pose.rotation) * (glm::conjugate(a.rotation) * to) * part.pose.rotation;
+    const glm::dquat turn =
+        glm::conjugate(part.pose.rotation) * (glm::conjugate(a.rotation) * to) * part.pose.rotation;
     const glm::dvec3 axis(turn.x, turn.y, turn.z);
     const double sine = glm::length(axis);
     double arm = radius;
@@ -110,7 +111,8 @@ class WayLength {
       arm = std::min(arm, farthest);
     }
     // Differences of nearly equal poses carry the rounding of both; so does the axis.
-    const double rounding = 1e-15 * (radius + glm::length(a.translation) + glm::length(b.translation) + glm::length(centre));
+    const double rounding =
+        1e-15 * (radius + glm::length(a.translation) + glm::length(b.translation) + glm::length(centre));
     return kTravelShare * (glm::length(shift) + angle * arm) + rounding;
   }
 
@@ -209,10 +211,9 @@ bool isWoundAround(const TriangleMesh& mesh, const std::vector<MeshPiece>& piece
 double gapInFrameOf(const Aabb& box, const Aabb& other, const RigidTransform& boxFromOther) {
   glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper(-lower);
   for (unsigned corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 p =
-        boxFromOther.applyToPoint({(corner & 1U ? other.upper : other.lower).x,
-                                   (corner & 2U ? other.upper : other.lower).y,
-                                   (corner & 4U ? other.upper : other.lower).z});
+    const glm::dvec3 p = boxFromOther.applyToPoint({(corner & 1U ? other.upper : other.lower).x,
+                                                    (corner & 2U ? other.upper : other.lower).y,
+                                                    (corner & 4U ? other.upper : other.lower).z});
     lower = glm::min(lower, p);
     upper = glm::max(upper, p);
   }
@@ -248,13 +249,15 @@ class CertificateCheck {
       for (std::size_t other = moving_; other < parts_.size(); ++other, ++next) {
         if (next >= certificate_.pairs.size() || certificate_.pairs[next].part != part ||
             certificate_.pairs[next].other != other) {
-          return fmt::format("it has no proof for \"{}\" and \"{}\" where one belongs", nameOf(part), nameOf(other));
+          return fmt::format("it has no proof for \"{}\" and \"{}\" where one belongs", nameOf(part),
+                             nameOf(other));
         }
         const std::string problem = coverProblem(certificate_.pairs[next]);
         if (!problem.empty()) return problem;
       }
     }
-    return next == certificate_.pairs.size() ? std::string() : "it has proofs for pairs of parts that it does not name";
+    return next == certificate_.pairs.size() ? std::string()
+                                             : "it has proofs for pairs of parts that it does not name";
   }
 
   /// Proves that nothing is inside something else at the start.
@@ -329,26 +332,28 @@ class CertificateCheck {
   /// What rounding of that pose may move a point by [m].
   double roundingOf(const CertifiedPair& pair, double place) const {
     const JudgedPart &part = parts_[pair.part], &other = parts_[pair.other];
-    return kPoseShare *
-           (glm::length(other.pose.translation) + glm::length(part.pose.translation) +
-            glm::length(poseAt(certificate_.path, place).translation) + lengthOfLargest(part.box.lower, part.box.upper) +
-            lengthOfLargest(other.box.lower, other.box.upper));
+    return kPoseShare * (glm::length(other.pose.translation) + glm::length(part.pose.translation) +
+                         glm::length(poseAt(certificate_.path, place).translation) +
+                         lengthOfLargest(part.box.lower, part.box.upper) +
+                         lengthOfLargest(other.box.lower, other.box.upper));
   }
 
   /// Checks that stretches follow each other over the whole path, and that each bound leaves the separation.
   std::string coverProblem(const CertifiedPair& pair) const {
     const WayLength& way = *ways_[pair.part];
     const auto fail = [&](const char* problem, double place) {
-      return fmt::format("the proof for \"{}\" and \"{}\" {} at {} s", nameOf(pair.part), nameOf(pair.other), problem,
-                         timeAt(certificate_.path, place));
+      return fmt::format("the proof for \"{}\" and \"{}\" {} at {} s", nameOf(pair.part), nameOf(pair.other),
+                         problem, timeAt(certificate_.path, place));
     };
     double from = 0.0;
     for (const ProvenStretch& stretch : pair.stretches) {
-      if (stretch.from != from || !(stretch.anchor >= from) || !(stretch.to >= stretch.anchor) || !(stretch.to > from))
+      if (stretch.from != from || !(stretch.anchor >= from) || !(stretch.to >= stretch.anchor) ||
+          !(stretch.to > from))
         return fail("does not go on", from);
       const double middle = way.to(stretch.anchor);
       const double moved = std::max(middle - way.to(from), way.to(stretch.to) - middle);
-      if (!(stretch.bound >= certificate_.separation + moved)) return fail("claims too little for its stretch", from);
+      if (!(stretch.bound >= certificate_.separation + moved))
+        return fail("claims too little for its stretch", from);
       from = stretch.to;
     }
     return from == certificate_.path.end() ? std::string() : fail("ends before the path", from);
@@ -356,7 +361,8 @@ class CertificateCheck {
 
   bool doBoxesMeet(const CertifiedPair& pair) const {
     const RigidTransform otherFromPart = poseOf(pair, 0.0);
-    return !(gapInFrameOf(parts_[pair.other].box, parts_[pair.part].box, otherFromPart) > roundingOf(pair, 0.0));
+    return !(gapInFrameOf(parts_[pair.other].box, parts_[pair.part].box, otherFromPart) >
+             roundingOf(pair, 0.0));
   }
 
   bool isAPieceInside(std::size_t inner, std::size_t outer, const RigidTransform& outerFromInner,
@@ -375,7 +381,8 @@ class CertificateCheck {
       const Aabb &part = parts_[pair.part].box, &other = parts_[pair.other].box;
       for (const ProvenStretch& stretch : pair.stretches) {
         const RigidTransform pose = poseOf(pair, stretch.anchor);
-        const double gap = std::max(gapInFrameOf(other, part, pose), gapInFrameOf(part, other, pose.inverse()));
+        const double gap =
+            std::max(gapInFrameOf(other, part, pose), gapInFrameOf(part, other, pose.inverse()));
         if (!(gap >= stretch.bound + roundingOf(pair, stretch.anchor))) claims.push_back({i, stretch});
       }
     }
@@ -421,7 +428,8 @@ bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
 }
 
 /// What differs between the parts of a certificate and those of the scene; empty if nothing does.
-std::string partsProblem(const std::vector<CertifiedPart>& certified, const std::vector<CertifiedPart>& present) {
+std::string partsProblem(const std::vector<CertifiedPart>& certified,
+                         const std::vector<CertifiedPart>& present) {
   for (std::size_t i = 0; i < std::min(certified.size(), present.size()); ++i) {
     const CertifiedPart &a = certified[i], &b = present[i];
     if (a.name != b.name || a.isMoving != b.isMoving)
@@ -438,8 +446,9 @@ std::string partsProblem(const std::vector<CertifiedPart>& certified, const std:
 
 }  // namespace
 
-Verification verifyCertificate(const Certificate& certificate, const Scene& scene, const std::string& sceneSha256,
-                               const std::optional<AssemblyPath>& path, const ProgressCallback& progress) {
+Verification verifyCertificate(const Certificate& certificate, const Scene& scene,
+                               const std::string& sceneSha256, const std::optional<AssemblyPath>& path,
+                               const ProgressCallback& progress) {
   Verification result;
   const auto refuse = [&](std::string problem) {
     result.problem = std::move(problem);

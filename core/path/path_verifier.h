@@ -31,7 +31,8 @@ struct Verification {
 /// @param sceneSha256  Of the scene file; must be the certificate's, if that has one.
 /// @param path         If given, must be the certificate's.
 /// Throws Cancelled.
-Verification verifyCertificate(const Certificate& certificate, const Scene& scene, const std::string& sceneSha256,
+Verification verifyCertificate(const Certificate& certificate, const Scene& scene,
+                               const std::string& sceneSha256,
                                const std::optional<AssemblyPath>& path = std::nullopt,
                                const ProgressCallback& progress = {});
 

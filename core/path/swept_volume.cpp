@@ -186,7 +186,8 @@ class SweptLattice {
 
   /// Visits the neighbours along edges of tetrahedra, so that no edge leads from what is reached to what is filled.
   void reachFrom(NodeIndex node, std::vector<std::uint8_t>& isReached, std::vector<NodeIndex>& next) const {
-    const std::array<std::size_t, 3> at{node % size_[0], node / size_[0] % size_[1], node / (size_[0] * size_[1])};
+    const std::array<std::size_t, 3> at{node % size_[0], node / size_[0] % size_[1],
+                                        node / (size_[0] * size_[1])};
     for (unsigned step = 1; step < 8; ++step) {
       std::size_t offset = 0, stride = 1;
       bool isAbove = true, isBelow = true;

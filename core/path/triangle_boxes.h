@@ -34,7 +34,8 @@ class TriangleBoxes {
   /// True if it is proven that each triangle of this mesh is at least `gap` from each of the part's.
   /// @param thisFromPart  Unit quaternion.
   /// @param gap           [m]; > 0, large beside the rounding of coordinates, which is taken into account.
-  bool isApart(const TriangleBoxes& part, const RigidTransform& thisFromPart, double gap, Waiting& waiting) const;
+  bool isApart(const TriangleBoxes& part, const RigidTransform& thisFromPart, double gap,
+               Waiting& waiting) const;
 
  private:
   struct Node {

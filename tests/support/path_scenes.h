@@ -82,7 +82,8 @@ inline PathScene pegScrewedIn(double radius) {
   made.scene.add(partOf(geometryOf(boxMesh({side, side, 0.5})), "Peg"));
   std::vector<RigidTransform> poses;
   for (int step = 0; step <= 8; ++step)
-    poses.push_back({rotationOf({0.0, 0.0, 0.5 * std::numbers::pi * step}), glm::dvec3(0.0, 0.0, 1.0 - 0.25 * step)});
+    poses.push_back(
+        {rotationOf({0.0, 0.0, 0.5 * std::numbers::pi * step}), glm::dvec3(0.0, 0.0, 1.0 - 0.25 * step)});
   made.path = pathThrough("Peg", poses);
   return made;
 }

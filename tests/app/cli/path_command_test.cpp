@@ -24,7 +24,8 @@ class PathCommand : public PlateAndCube {
     for (int i = 0; i <= 100; ++i) {
       MotionRow row;
       row.time = 0.01 * i;
-      row.proxy.translation = i <= 50 ? glm::dvec3(0.0, 0.0, 2.0 - 0.018 * i) : glm::dvec3(0.02 * (i - 50), 0.0, 1.1);
+      row.proxy.translation =
+          i <= 50 ? glm::dvec3(0.0, 0.0, 2.0 - 0.018 * i) : glm::dvec3(0.02 * (i - 50), 0.0, 1.1);
       row.handle = row.proxy;
       writer.write(row);
     }
@@ -39,7 +40,8 @@ class PathCommand : public PlateAndCube {
     ASSERT_EQ(result.exitCode, 0) << result.err;
   }
   ProcessResult certify(const std::string& separation) {
-    return runCli({"certify", path("in.nfpath"), scene_, "-o", path("in.nfcert"), "--separation", separation, "--json"});
+    return runCli({"certify", path("in.nfpath"), scene_, "-o", path("in.nfcert"), "--separation", separation,
+                   "--json"});
   }
   ProcessResult verify(std::vector<std::string> more = {}) {
     more.insert(more.begin(), {"verify", path("in.nfcert"), scene_});
@@ -55,8 +57,9 @@ class PathCommand : public PlateAndCube {
 };
 
 TEST_F(PathCommand, ARecordingIsTrimmedThinnedAndCertified) {
-  makePath({"--from", "0.1", "--to", "0.9", "--thin", "0.001", "--csv", path("poses.csv"), "--gltf", path("in.glb"),
-            "--clearance", path("near.csv"), "--within", "2", "--swept", path("swept.ply"), "--resolution", "0.2"});
+  makePath({"--from", "0.1", "--to", "0.9", "--thin", "0.001", "--csv", path("poses.csv"), "--gltf",
+            path("in.glb"), "--clearance", path("near.csv"), "--within", "2", "--swept", path("swept.ply"),
+            "--resolution", "0.2"});
   EXPECT_THAT(readBytes(path("swept.ply")), StartsWith("ply"));
   const auto poses = linesOf(readBytes(path("poses.csv")));
   ASSERT_GE(poses.size(), 4U);
@@ -121,7 +124,8 @@ TEST_F(PathCommand, WhatMakesNoSenseIsWrongUsage) {
            {"path", path("felt.csv"), scene_, "-o", path("x"), "--csv", path("x")},
            {"path", path("felt.csv"), scene_, "-o", path("x"), "--resolution", "0.1"},
            {"path", path("felt.csv"), scene_, "-o", path("x"), "--swept", path("swept.txt")},
-           {"path", path("felt.csv"), scene_, "-o", path("x"), "--swept", path("swept.stl"), "--unit", "parsec"},
+           {"path", path("felt.csv"), scene_, "-o", path("x"), "--swept", path("swept.stl"), "--unit",
+            "parsec"},
            {"path", path("felt.csv"), scene_, "-o", path("felt.csv")},
            {"path", path("felt.csv"), scene_, "-o", path("plate.obj")},
            {"path", path("felt.csv"), scene_, "-o", path("x"), "--from", "3"},

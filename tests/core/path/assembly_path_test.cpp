@@ -85,7 +85,8 @@ TEST(AssemblyPath, TrimmingBeyondTheMotionLeavesItWhole) {
 
 TEST(AssemblyPath, TrimmingToNothingIsRefused) {
   EXPECT_THAT(test::refusalOf([] { trimmed(threePoses(), 1.0, 1.0); }), HasSubstr("no motion"));
-  EXPECT_THAT(test::refusalOf([] { trimmed(threePoses(), 5.0, 6.0); }), HasSubstr("choose times from 0 to 2"));
+  EXPECT_THAT(test::refusalOf([] { trimmed(threePoses(), 5.0, 6.0); }),
+              HasSubstr("choose times from 0 to 2"));
   EXPECT_THAT(test::refusalOf([] { trimmed(threePoses(), std::nan(""), 1.0); }), HasSubstr("no motion"));
 }
 
@@ -134,8 +135,10 @@ TEST(AssemblyPath, PathsThatCannotBeFollowedAreRefused) {
   EXPECT_EQ(refused([](AssemblyPath&) {}), "");
   EXPECT_THAT(refused([](AssemblyPath& p) { p.poses.resize(1); }), HasSubstr("less than two poses"));
   EXPECT_THAT(refused([](AssemblyPath& p) { p.poses[1].time = 0.0; }), HasSubstr("no later"));
-  EXPECT_THAT(refused([](AssemblyPath& p) { p.poses[1].time = std::nan(""); }), HasSubstr("not a valid time"));
-  EXPECT_THAT(refused([](AssemblyPath& p) { p.poses[1].worldFromLead.translation.x = INFINITY; }), HasSubstr("pose 1"));
+  EXPECT_THAT(refused([](AssemblyPath& p) { p.poses[1].time = std::nan(""); }),
+              HasSubstr("not a valid time"));
+  EXPECT_THAT(refused([](AssemblyPath& p) { p.poses[1].worldFromLead.translation.x = INFINITY; }),
+              HasSubstr("pose 1"));
   EXPECT_THAT(refused([](AssemblyPath& p) { p.poses[1].worldFromLead.rotation.w = 1.0 + 1e-9; }),
               HasSubstr("not of unit length"));
   EXPECT_THAT(refused([](AssemblyPath& p) { p.poses[1].worldFromLead.rotation = rotationOf({3.0, 0, 0}); }),

@@ -92,7 +92,8 @@ TEST(PathAnimation, MovesANodeAsThePathDoes) {
     EXPECT_EQ(channel.at("target").at("node"), moved);
     const auto& sampler = animation.at("samplers").at(channel.at("sampler").get<std::size_t>());
     EXPECT_EQ(sampler.at("interpolation"), "LINEAR");
-    const std::vector<float> times = glb.floats(sampler.at("input")), values = glb.floats(sampler.at("output"));
+    const std::vector<float> times = glb.floats(sampler.at("input")),
+                             values = glb.floats(sampler.at("output"));
     const auto& input = glb.json.at("accessors").at(sampler.at("input").get<std::size_t>());
     ASSERT_EQ(times.size(), made.path.poses.size());
     EXPECT_EQ(input.at("min").at(0).get<double>(), static_cast<double>(times.front()));
@@ -111,7 +112,9 @@ TEST(PathAnimation, MovesANodeAsThePathDoes) {
         const glm::dquat q = pose.rotation;
         EXPECT_NEAR(std::abs(w * q.w + x * q.x + y * q.y + z * q.z), 1.0, 1e-6) << "the same turn";
         if (i > 0) {
-          EXPECT_GE(x * values[4 * i - 4] + y * values[4 * i - 3] + z * values[4 * i - 2] + w * values[4 * i - 1], 0.0)
+          EXPECT_GE(
+              x * values[4 * i - 4] + y * values[4 * i - 3] + z * values[4 * i - 2] + w * values[4 * i - 1],
+              0.0)
               << "the shorter way";
         }
       }
@@ -133,7 +136,8 @@ TEST(PathAnimation, HoldsTheMeshesOfAllVisiblePartsWhereTheyAre) {
   for (const char* name : {"Bore", "Peg"}) {
     const Part& part = made.part(name);
     const auto& node = glb.json.at("nodes").at(glb.node(name));
-    const auto& primitive = glb.json.at("meshes").at(node.at("mesh").get<std::size_t>()).at("primitives").at(0);
+    const auto& primitive =
+        glb.json.at("meshes").at(node.at("mesh").get<std::size_t>()).at("primitives").at(0);
     const std::size_t accessor = primitive.at("attributes").at("POSITION");
     const std::vector<float> positions = glb.floats(accessor);
     const std::vector<std::uint32_t> indices = glb.indices(primitive.at("indices"));

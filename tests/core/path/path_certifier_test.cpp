@@ -40,8 +40,8 @@ void expectCovered(const PathProof& proof, const AssemblyPath& path) {
 
 /// Checks by exact predicates, at random places on the path, that the parts do not meet, and that a gap of the
 /// separation is between them.
-void expectFreeAtRandomPlaces(const test::PathScene& made, const char* part, const char* other, double separation,
-                              int count) {
+void expectFreeAtRandomPlaces(const test::PathScene& made, const char* part, const char* other,
+                              double separation, int count) {
   const Part &mine = made.part(part), &its = made.part(other);
   const test::PoseCertifier oracle(its.geometry->mesh, mine.geometry->mesh);
   test::RandomValues random(11);
@@ -60,7 +60,8 @@ test::PathScene rockRoundRock(unsigned seed, double orbit) {
   test::PathScene made;
   made.scene.add(test::partOf(test::geometryOf(test::starMesh(seed, 0.5, 2, 0.3)), "Still",
                               {random.pose().rotation, glm::dvec3(0.0)}));
-  made.scene.add(test::partOf(test::geometryOf(test::starMesh(seed + 1, 0.5, 2, 0.3)), "Rock", test::at(9, 9, 9)));
+  made.scene.add(
+      test::partOf(test::geometryOf(test::starMesh(seed + 1, 0.5, 2, 0.3)), "Rock", test::at(9, 9, 9)));
   std::vector<RigidTransform> poses;
   RigidTransform pose{random.pose().rotation, glm::dvec3(0.0)};
   for (int i = 0; i <= kSteps; ++i) {
@@ -81,7 +82,8 @@ TEST(PathCertifier, ACubeThatPassesByAKnownGapKeepsLessThanThat) {
   ASSERT_EQ(proof.pairs.size(), 1U);
   expectCovered(proof, made.path);
   for (const ProvenStretch& stretch : proof.pairs[0].stretches)
-    EXPECT_LE(stretch.bound, test::cubeDistance(0.01, stretch.anchor)) << "no bound claims more than the distance";
+    EXPECT_LE(stretch.bound, test::cubeDistance(0.01, stretch.anchor))
+        << "no bound claims more than the distance";
   expectFreeAtRandomPlaces(made, "Cube", "Post", 0.009, 200);
 }
 
@@ -127,7 +129,8 @@ TEST(PathCertifier, ABarThatTurnsInARingKeepsTheLeastGapOfItsPolygon) {
 TEST(PathCertifier, ABarThatIsFreeAtEachPoseButNotBetweenThemIsRefused) {
   test::PathScene made = test::barInRing(0.8);
   // A stop that a bar at right angles does not reach.
-  made.scene.add(test::partOf(test::geometryOf(test::boxMesh({0.1, 0.1, 0.1})), "Stop", test::at(0.5, 0.5, 0.0)));
+  made.scene.add(
+      test::partOf(test::geometryOf(test::boxMesh({0.1, 0.1, 0.1})), "Stop", test::at(0.5, 0.5, 0.0)));
   const PathProof proof = prove(made, 1e-3);
   ASSERT_FALSE(proof.isFree());
   EXPECT_EQ(proof.unproven->other, made.part("Stop").id);
@@ -180,7 +183,8 @@ TEST(PathCertifier, ThePartIsOnTheWayWhereverTheSceneHasIt) {
 TEST(PathCertifier, AllPartsOfAGroupMoveAndHiddenOthersAreNotInTheWay) {
   test::PathScene made = test::cubePastCube(2.0);
   // A second cube, one gap nearer to the post.
-  made.scene.add(test::partOf(test::geometryOf(test::boxMesh({1, 1, 1})), "Second", test::at(-3.0, 1.0 + 0.01, 0.0)));
+  made.scene.add(
+      test::partOf(test::geometryOf(test::boxMesh({1, 1, 1})), "Second", test::at(-3.0, 1.0 + 0.01, 0.0)));
   made.path.parts = {"Cube", "Second"};
   EXPECT_TRUE(prove(made, 0.009).isFree());
   const PathProof proof = prove(made, 0.0101);

@@ -64,7 +64,8 @@ TEST(PathClearance, CsvHasAColumnForEachPartAndNoFormulas) {
   Part post = made.part("Post");
   post.name = "=1+1";
   made.scene.replace(post);
-  const std::string text = pathClearanceCsv(made.scene, made.path, clearancesAlong(made.scene, made.path, 1.0));
+  const std::string text =
+      pathClearanceCsv(made.scene, made.path, clearancesAlong(made.scene, made.path, 1.0));
   EXPECT_THAT(text, StartsWith("t_s,\"'=1+1 [m]\"\n0,inf\n"));
   EXPECT_THAT(text, HasSubstr("\n0.5,0.2"));
 }

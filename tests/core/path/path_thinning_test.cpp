@@ -20,7 +20,8 @@ constexpr double kSeparation = 1e-3;
 test::PathScene cubeRoundACorner() {
   test::PathScene made;
   made.scene.add(test::partOf(test::geometryOf(test::boxMesh({1, 1, 1})), "Post"));
-  made.scene.add(test::partOf(test::geometryOf(test::boxMesh({0.2, 0.2, 0.2})), "Cube", test::at(-1, -0.7, 0)));
+  made.scene.add(
+      test::partOf(test::geometryOf(test::boxMesh({0.2, 0.2, 0.2})), "Cube", test::at(-1, -0.7, 0)));
   std::vector<RigidTransform> poses;
   for (int i = 0; i <= 34; ++i)
     poses.push_back(test::at(-1.0 + 0.05 * i, -0.7, 0.0));
@@ -97,14 +98,14 @@ TEST(PathThinning, AFullTurnIsNotTakenForRest) {
   AssemblyPath path = made.path;
   path.poses.clear();
   for (int i = 0; i <= 72; ++i)
-    path.poses.push_back(
-        {0.1 * i, {rotationOf({0, 0, 2.0 * std::numbers::pi * i / 72.0}), glm::dvec3(0.0)}});
+    path.poses.push_back({0.1 * i, {rotationOf({0, 0, 2.0 * std::numbers::pi * i / 72.0}), glm::dvec3(0.0)}});
   const ChangedPath result = thinned(path, PathCertifier(made.scene, path, kSeparation), 0.01);
   EXPECT_GE(result.path.poses.size(), 4U) << "no segment turns by more than 170 degrees";
   EXPECT_LT(result.path.poses.size(), 20U);
   for (const PathPose& pose : path.poses) {
     const RigidTransform there = poseAt(result.path, placeAt(result.path, pose.time));
-    EXPECT_LT(glm::distance(there.applyToVector({1, 0, 0}), pose.worldFromLead.applyToVector({1, 0, 0})), 0.05);
+    EXPECT_LT(glm::distance(there.applyToVector({1, 0, 0}), pose.worldFromLead.applyToVector({1, 0, 0})),
+              0.05);
   }
 }
 
@@ -131,7 +132,8 @@ TEST(PathSmoothing, MovesNoPoseFartherThanTheTolerance) {
   path.poses.clear();
   test::RandomValues random(4);
   for (int i = 0; i <= 60; ++i)
-    path.poses.push_back({0.1 * i, test::at(-3.0 + 0.1 * i, 3.0 + random.in(-0.05, 0.05), random.in(-0.05, 0.05))});
+    path.poses.push_back(
+        {0.1 * i, test::at(-3.0 + 0.1 * i, 3.0 + random.in(-0.05, 0.05), random.in(-0.05, 0.05))});
   const ChangedPath result = smoothed(path, PathCertifier(made.scene, path, kSeparation), 0.02);
   EXPECT_GT(result.changed, 0U);
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
@@ -144,7 +146,8 @@ TEST(PathSmoothing, MovesNoPoseFartherThanTheTolerance) {
 TEST(PathSmoothing, AWayRoundAnObstacleStaysRoundIt) {
   test::PathScene made;
   made.scene.add(test::partOf(test::geometryOf(test::boxMesh({0.02, 0.02, 1})), "Pin"));
-  made.scene.add(test::partOf(test::geometryOf(test::boxMesh({0.2, 0.2, 0.2})), "Cube", test::at(-1, 0.05, 0)));
+  made.scene.add(
+      test::partOf(test::geometryOf(test::boxMesh({0.2, 0.2, 0.2})), "Cube", test::at(-1, 0.05, 0)));
   // Straight but for poses that step out just round the pin: 0.11 m would touch it.
   AssemblyPath path = test::pathThrough("Cube", {});
   for (int i = 0; i <= 40; ++i) {

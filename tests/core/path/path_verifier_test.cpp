@@ -99,33 +99,40 @@ TEST(PathVerifier, SaysWhatDiffersWhenTheSceneIsAnother) {
   EXPECT_EQ(problemWith([](Scene&) {}), "");
   EXPECT_THAT(changed("Ring", [](Part& p) { p.worldFromPart.translation.x = 1e-300; }),
               HasSubstr("\"Ring\" is at another place"));
-  EXPECT_THAT(changed("Ring", [](Part& p) { p.isVisible = false; }), HasSubstr("does not show the part \"Ring\""));
-  EXPECT_THAT(changed("Ring", [](Part& p) { p.name = "Tube"; }), HasSubstr("\"Tube\" where the certificate has"));
+  EXPECT_THAT(changed("Ring", [](Part& p) { p.isVisible = false; }),
+              HasSubstr("does not show the part \"Ring\""));
+  EXPECT_THAT(changed("Ring", [](Part& p) { p.name = "Tube"; }),
+              HasSubstr("\"Tube\" where the certificate has"));
   EXPECT_THAT(changed("Bar", [](Part& p) { p.name = "Rod"; }), HasSubstr("no part \"Bar\""));
   const auto withOneBitChanged = [](Part& part) {
     const TriangleMesh& mesh = part.geometry->mesh;
     std::vector<glm::dvec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
     vertices[5].z = std::nextafter(vertices[5].z, 9.0);
-    part.geometry = test::geometryOf(TriangleMesh(vertices, {mesh.triangles().begin(), mesh.triangles().end()}));
+    part.geometry =
+        test::geometryOf(TriangleMesh(vertices, {mesh.triangles().begin(), mesh.triangles().end()}));
   };
   EXPECT_THAT(changed("Ring", withOneBitChanged), HasSubstr("the mesh of \"Ring\" differs"));
   EXPECT_THAT(changed("Bar", withOneBitChanged), HasSubstr("the mesh of \"Bar\" differs"));
-  EXPECT_THAT(problemWith([](Scene& scene) {
-                scene.add(test::partOf(test::geometryOf(test::boxMesh({1, 1, 1})), "New", test::at(50, 0, 0)));
-              }),
-              HasSubstr("shows the part \"New\""));
+  EXPECT_THAT(
+      problemWith([](Scene& scene) {
+        scene.add(test::partOf(test::geometryOf(test::boxMesh({1, 1, 1})), "New", test::at(50, 0, 0)));
+      }),
+      HasSubstr("shows the part \"New\""));
 }
 
 TEST(PathVerifier, SaysThatSceneFileOrPathIsAnother) {
   const test::PathScene made = test::cubePastCube(0.01);
   const Certificate certificate = certified(made, 0.009);
-  EXPECT_THAT(verifyCertificate(certificate, made.scene, std::string(64, 'b')).problem, HasSubstr("scene file"));
+  EXPECT_THAT(verifyCertificate(certificate, made.scene, std::string(64, 'b')).problem,
+              HasSubstr("scene file"));
   AssemblyPath path = made.path;
   path.poses[1].worldFromLead.translation.z = 1e-300;
-  EXPECT_THAT(verifyCertificate(certificate, made.scene, kSceneHash, path).problem, HasSubstr("the path is not"));
+  EXPECT_THAT(verifyCertificate(certificate, made.scene, kSceneHash, path).problem,
+              HasSubstr("the path is not"));
   path = made.path;
   path.poses[1].time = std::nextafter(path.poses[1].time, 9.0);
-  EXPECT_THAT(verifyCertificate(certificate, made.scene, kSceneHash, path).problem, HasSubstr("the path is not"));
+  EXPECT_THAT(verifyCertificate(certificate, made.scene, kSceneHash, path).problem,
+              HasSubstr("the path is not"));
 }
 
 TEST(PathVerifier, RefusesAProofWithAHole) {
@@ -208,7 +215,8 @@ TEST(PathVerifier, ABodyInACavityIsOutside) {
 TEST(PathVerifier, StopsWhenAsked) {
   const test::PathScene made = test::barInRing(0.95);
   const Certificate certificate = certified(made, 1e-3);
-  EXPECT_THROW(verifyCertificate(certificate, made.scene, kSceneHash, {}, [](double) { return false; }), Cancelled);
+  EXPECT_THROW(verifyCertificate(certificate, made.scene, kSceneHash, {}, [](double) { return false; }),
+               Cancelled);
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ TEST(SweptVolume, OfATurningBarHoldsItBetweenPosesToo) {
   EXPECT_TRUE(mesh.topology().isOriented());
   // The bar sweeps a disc of that radius, 0.4 m high.
   for (const glm::dvec3& v : mesh.vertices()) {
-    const double aside = std::max(0.0, std::hypot(v.x, v.y) - radius), above = std::max(0.0, std::abs(v.z) - 0.2);
+    const double aside = std::max(0.0, std::hypot(v.x, v.y) - radius),
+                 above = std::max(0.0, std::abs(v.z) - 0.2);
     ASSERT_GT(std::hypot(aside, above), 0.0);
     ASSERT_LE(std::hypot(aside, above), resolution);
   }
@@ -75,7 +76,8 @@ TEST(SweptVolume, WhatCannotBeReachedIsFilledAndWhatCanIsNot) {
 
 TEST(SweptVolume, AllMovingPartsCount) {
   test::PathScene made = test::cubePastCube(0.5);
-  made.scene.add(test::partOf(test::geometryOf(test::boxMesh({0.5, 0.5, 0.5})), "Second", test::at(-3.0, 4.5, 0.0)));
+  made.scene.add(
+      test::partOf(test::geometryOf(test::boxMesh({0.5, 0.5, 0.5})), "Second", test::at(-3.0, 4.5, 0.0)));
   made.path.parts = {"Cube", "Second"};
   const TriangleMesh mesh = sweptVolume(made.scene, made.path, 0.3);
   EXPECT_EQ(mesh.topology().components, 2U);

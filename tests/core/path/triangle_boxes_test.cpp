@@ -12,7 +12,8 @@ namespace nearfit::triangle_boxes_test {
 namespace {
 
 TriangleCorners randomTriangle(test::RandomValues& random, const glm::dvec3& about) {
-  const glm::dvec3 a = about + random.vector(0.5), b = about + random.vector(0.5), c = about + random.vector(0.5);
+  const glm::dvec3 a = about + random.vector(0.5), b = about + random.vector(0.5),
+                   c = about + random.vector(0.5);
   return {a, b, c};
 }
 
@@ -33,7 +34,8 @@ TEST(TriangleSlabs, AreAsWideAsTheExactDistance) {
 
 TEST(TriangleSlabs, HoldBesideTrianglesWithoutArea) {
   const TriangleCorners flat{glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)};
-  const TriangleCorners needle{glm::dvec3(0.2, 0.2, 0.5), glm::dvec3(0.2, 0.2, 1.5), glm::dvec3(0.2, 0.2, 1.0)};
+  const TriangleCorners needle{glm::dvec3(0.2, 0.2, 0.5), glm::dvec3(0.2, 0.2, 1.5),
+                               glm::dvec3(0.2, 0.2, 1.0)};
   const TriangleCorners point{glm::dvec3(2, 0, 0), glm::dvec3(2, 0, 0), glm::dvec3(2, 0, 0)};
   EXPECT_TRUE(areSlabApart(flat, needle, 0.499));
   EXPECT_FALSE(areSlabApart(flat, needle, 0.501));
@@ -70,7 +72,8 @@ TEST(TriangleBoxes, ProveNothingForAPoseThatIsNone) {
 
 TEST(TriangleBoxes, MeshesFarFromTheirOriginLoseNoMoreThanRounding) {
   const glm::dvec3 far(1e4, -2e4, 3e4);
-  const TriangleMesh a = test::boxMesh({1, 1, 1}, far), b = test::boxMesh({1, 1, 1}, far + glm::dvec3(1.5, 0, 0));
+  const TriangleMesh a = test::boxMesh({1, 1, 1}, far),
+                     b = test::boxMesh({1, 1, 1}, far + glm::dvec3(1.5, 0, 0));
   TriangleBoxes::Waiting waiting;
   EXPECT_TRUE(TriangleBoxes(a).isApart(TriangleBoxes(b), {}, 0.5 - 1e-8, waiting));
   EXPECT_FALSE(TriangleBoxes(a).isApart(TriangleBoxes(b), {}, 0.5 + 1e-8, waiting));
