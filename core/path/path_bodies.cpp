@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -76,22 +79,25 @@ glm::dvec3 extentIn(const glm::dmat3& turn, const glm::dvec3& half) noexcept {
 
 PathBodies pathBodies(const Scene& scene, const AssemblyPath& path) {
   PathBodies bodies;
+  std::map<std::string_view, Scene::PartPtr> partOf;
+  for (const Scene::PartPtr& part : scene.parts())
+    partOf.emplace(part->name, part);
   std::set<PartId> own;
+  std::vector<Scene::PartPtr> named;
   for (const std::string& name : path.parts) {
-    const Part* part = scene.findByName(name);
-    if (part == nullptr)
+    const auto found = partOf.find(name);
+    if (found == partOf.end())
       throw UsageError("path", fmt::format("the scene has no part \"{}\", which the path moves", name),
                        "take the scene that the path was made for");
-    if (own.empty()) bodies.worldFromLead = part->worldFromPart;
-    own.insert(part->id);
+    named.push_back(found->second);
+    own.insert(found->second->id);
   }
+  if (!named.empty()) bodies.worldFromLead = named.front()->worldFromPart;
   const RigidTransform leadFromWorld = bodies.worldFromLead.inverse();
-  for (const std::string& name : path.parts) {
-    const auto part = std::ranges::find(
-        scene.parts(), name, [](const Scene::PartPtr& p) -> const std::string& { return p->name; });
+  for (const Scene::PartPtr& part : named) {
     // A part alone counts, seen or not.
-    if (!hasTriangles(**part) || (own.size() > 1 && !(*part)->isVisible)) continue;
-    bodies.moving.push_back(movingPartOf(*part, leadFromWorld, path.centre));
+    if (!hasTriangles(*part) || (named.size() > 1 && !part->isVisible)) continue;
+    bodies.moving.push_back(movingPartOf(part, leadFromWorld, path.centre));
     bodies.radius = std::max(bodies.radius, bodies.moving.back().radius);
   }
   if (bodies.moving.empty())
