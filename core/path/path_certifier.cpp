@@ -138,6 +138,11 @@ class PairAdvance {
       const double middle = travel_.at(anchor);
       const double left = middle - begin <= room ? at.from : travel_.placeAt(middle - room, at.from, anchor);
       const double right = end - middle <= room ? at.to : travel_.placeAt(middle + room, anchor, at.to);
+      if (!(right > at.from)) {
+        // A step too small for the digits of places.
+        first = {at.from, distance, false};
+        continue;
+      }
       proven.push_back(stretchOf(left, anchor, right));
       const double next = distance >= enough ? 2.0 * reach : room;
       if (right < at.to) open.push_back({right, at.to, std::max(next, leastRoom())});
