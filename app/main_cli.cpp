@@ -13,14 +13,15 @@
 
 namespace {
 
-constexpr int kFailure = 1, kUsage = 2, kClash = 3;
+constexpr int kFailure = 1, kUsage = 2, kNegativeVerdict = 3;
 
 constexpr const char* kFooter =
     "nearfit-cli COMMAND --help describes the options and output of a command.\n"
     "Lengths are in metres, forces in newtons, times in seconds unless said otherwise; quaternions are w, x, "
     "y, z.\n"
-    "Exit code: 0 for success, 2 for wrong usage, 1 for any other failure, with one line on stderr;\n"
-    "3 if clearance --all found a clash that no rule allows.";
+    "Exit code: 0 for success, 2 for wrong usage, 3 where a verdict is no (certify, verify, clearance "
+    "--all),\n"
+    "1 for any other failure, with one line on stderr.";
 
 int report(const char* message, int exitCode) {
   nearfit::cli::printError(message);
@@ -51,6 +52,9 @@ int run(int argc, char** argv) {
   nearfit::cli::addExportCommand(program);
   nearfit::cli::addClearanceCommand(program);
   nearfit::cli::addClearanceMapCommand(program);
+  nearfit::cli::addPathCommand(program);
+  nearfit::cli::addCertifyCommand(program);
+  nearfit::cli::addVerifyCommand(program);
   nearfit::cli::addDevicesCommand(program);
   nearfit::cli::addCacheCommand(program);
   try {
@@ -74,8 +78,8 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const nearfit::cli::ReportedFailure&) {
     return kFailure;
-  } catch (const nearfit::cli::ForbiddenClash&) {
-    return kClash;
+  } catch (const nearfit::cli::NegativeVerdict&) {
+    return kNegativeVerdict;
   } catch (const nearfit::UsageError& e) {
     return report(e.what(), kUsage);
   } catch (const std::exception& e) {

@@ -5,8 +5,8 @@ class App;
 }
 
 /// Each function adds one subcommand with its help to `program`; the subcommand runs while the
-/// arguments are parsed. Results go to stdout. Failures are thrown: UsageError (exit code 2) or
-/// anything else (exit code 1).
+/// arguments are parsed. Results go to stdout. Failures are thrown: UsageError (exit code 2),
+/// NegativeVerdict (exit code 3) or anything else (exit code 1).
 namespace nearfit::cli {
 
 void addInfoCommand(CLI::App& program);
@@ -17,6 +17,9 @@ void addPlaceCommand(CLI::App& program);
 void addExportCommand(CLI::App& program);
 void addClearanceCommand(CLI::App& program);
 void addClearanceMapCommand(CLI::App& program);
+void addPathCommand(CLI::App& program);
+void addCertifyCommand(CLI::App& program);
+void addVerifyCommand(CLI::App& program);
 void addCacheCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
 

@@ -35,11 +35,11 @@ class ReportedFailure : public std::exception {
   const char* what() const noexcept override { return "the command failed"; }
 };
 
-/// Thrown by a check that has printed its findings, if a clash that no rule allows is among them: exit code 3, no further
-/// line.
-class ForbiddenClash : public std::exception {
+/// Thrown by a command that has printed a verdict which is no, such as a path that is not proven free or a clash that no rule allows: exit code 3, no
+/// further line.
+class NegativeVerdict : public std::exception {
  public:
-  const char* what() const noexcept override { return "parts clash"; }
+  const char* what() const noexcept override { return "the verdict is no"; }
 };
 
 /// Calls `report` for each file. One that cannot be read is told on stderr, and the others still follow. Throws

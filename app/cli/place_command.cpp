@@ -16,6 +16,7 @@
 #include "app/cli/place_run.h"
 #include "app/cli/place_summary.h"
 #include "app/cli/rate_options.h"
+#include "app/cli/scene_part.h"
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/report/mesh_export.h"
@@ -64,22 +65,9 @@ std::string knownNames(const Scene& scene) {
   return names.empty() ? "the scene has no parts" : "its parts are " + names;
 }
 
-/// The group with the name given by --group. Throws UsageError unless there is exactly one.
-GroupId namedGroup(const Scene& scene, const PlaceOptions& options) {
-  const auto hasName = [&](const Scene::GroupPtr& group) { return group->name == options.group; };
-  const auto count = std::ranges::count_if(scene.groups(), hasName);
-  if (count == 1) return (*std::ranges::find_if(scene.groups(), hasName))->id;
-  if (count == 0) {
-    throw UsageError(options.scene, "there is no group \"" + options.group + "\"",
-                     "name a group of the scene (nearfit shows them)");
-  }
-  throw UsageError(options.scene, fmt::format("{} groups are named \"{}\"", count, options.group),
-                   "rename the one that is meant");
-}
-
 /// Makes the named group move as one; the path is that of the part that leads it.
 void takeGroupInHand(Scene& scene, const PlaceOptions& options, const RigidTransform* start) {
-  scene.setMovingGroup(namedGroup(scene, options));
+  scene.setMovingGroup(namedGroup(scene, options.group, options.scene));
   const std::vector<PartId> parts = scene.movingParts();
   if (std::ranges::none_of(parts, [&](PartId id) { return scene.get(id).isVisible; })) {
     throw UsageError(options.scene,

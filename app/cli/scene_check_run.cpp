@@ -184,7 +184,7 @@ void runSceneCheck(const std::string& sceneFile, const SceneCheckOptions& option
   printCacheWarnings();
   if (check->forbidden() == 0) return;
   flushOutput();
-  throw ForbiddenClash();
+  throw NegativeVerdict();
 }
 
 }  // namespace nearfit::cli

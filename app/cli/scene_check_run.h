@@ -22,7 +22,7 @@ struct SceneCheckOptions {
 void addSceneCheckOptions(CLI::App& command, CLI::Option& all,
                           const std::shared_ptr<SceneCheckOptions>& options);
 
-/// Checks all pairs of a scene's visible parts and prints what it finds. Throws ForbiddenClash if the parts clash and no
+/// Checks all pairs of a scene's visible parts and prints what it finds. Throws NegativeVerdict if the parts clash and no
 /// rule allows it, UsageError, FileError, Cancelled (after an interrupt).
 void runSceneCheck(const std::string& scene, const SceneCheckOptions& options);
 

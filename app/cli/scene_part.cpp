@@ -1,5 +1,7 @@
 #include "app/cli/scene_part.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/error.h"
@@ -17,6 +19,18 @@ PartId chosenPart(const Scene& scene, const std::string& name) {
   if (part == nullptr)
     throw UsageError("--part", fmt::format("there is no part \"{}\"", name), "name a part of the scene");
   return part->id;
+}
+
+GroupId namedGroup(const Scene& scene, const std::string& name, const std::string& sceneFile) {
+  const auto hasName = [&](const Scene::GroupPtr& group) { return group->name == name; };
+  const auto count = std::ranges::count_if(scene.groups(), hasName);
+  if (count == 1) return (*std::ranges::find_if(scene.groups(), hasName))->id;
+  if (count == 0) {
+    throw UsageError(sceneFile, "there is no group \"" + name + "\"",
+                     "name a group of the scene (nearfit shows them)");
+  }
+  throw UsageError(sceneFile, fmt::format("{} groups are named \"{}\"", count, name),
+                   "rename the one that is meant");
 }
 
 }  // namespace nearfit::cli

@@ -9,4 +9,7 @@ namespace nearfit::cli {
 /// The part with the name given by --part; without a name, the moving part. Throws UsageError if there is none.
 PartId chosenPart(const Scene& scene, const std::string& name);
 
+/// The group with the name given by --group. Throws UsageError, naming the scene file, unless there is exactly one.
+GroupId namedGroup(const Scene& scene, const std::string& name, const std::string& sceneFile);
+
 }  // namespace nearfit::cli

@@ -14,8 +14,9 @@ namespace nearfit {
 
 /// A triangle mesh in the caller's arrays, in the frame that both meshes of a search share.
 struct MeshArrays {
-  std::span<const glm::dvec3> vertices;                        ///< Finite [m].
-  std::span<const std::array<std::uint32_t, 3>> triangles;  ///< Indices of vertices, anticlockwise from outside.
+  std::span<const glm::dvec3> vertices;  ///< Finite [m].
+  std::span<const std::array<std::uint32_t, 3>>
+      triangles;  ///< Indices of vertices, anticlockwise from outside.
 };
 
 /// Called now and then during long work; false stops it. May be empty.

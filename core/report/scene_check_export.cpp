@@ -185,14 +185,13 @@ std::string sceneCheckTable(const Scene& scene, const SceneCheck& check,
     const PairFinding* now = row->now;
     const std::string rule = now != nullptr ? ruleText(check, *now) : std::string();
     const bool hasVolume = now != nullptr && now->clash && now->clash->volume;
-    fmt::format_to(std::back_inserter(text), "{:<10}{:<11}{:<8}{:>13}{:>14}{:>14}  {} | {}{}\n",
-                   wordOf(now != nullptr ? now->verdict : PairVerdict::Clear), wordOf(row->state),
-                   wordOf(row->change), now != nullptr ? fmt::format("{:.4g}", now->distance) : "",
-                   now != nullptr ? depthText(*now) : "",
-                   hasVolume ? fmt::format("{:.4g}", *now->clash->volume) : "",
-                   printableText(scene.get(row->pair.part).name),
-                   printableText(scene.get(row->pair.other).name),
-                   rule.empty() ? "" : fmt::format("  (allowed: {})", rule));
+    fmt::format_to(
+        std::back_inserter(text), "{:<10}{:<11}{:<8}{:>13}{:>14}{:>14}  {} | {}{}\n",
+        wordOf(now != nullptr ? now->verdict : PairVerdict::Clear), wordOf(row->state), wordOf(row->change),
+        now != nullptr ? fmt::format("{:.4g}", now->distance) : "", now != nullptr ? depthText(*now) : "",
+        hasVolume ? fmt::format("{:.4g}", *now->clash->volume) : "",
+        printableText(scene.get(row->pair.part).name), printableText(scene.get(row->pair.other).name),
+        rule.empty() ? "" : fmt::format("  (allowed: {})", rule));
   }
   return text;
 }

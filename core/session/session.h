@@ -88,7 +88,8 @@ class Session {
   /// Sets what the user says about findings; parts may be locked. Throws UsageError if one of the pairs has no record, or
   /// like checkPairRecord().
   /// @param reason  Why they are accepted; else may be empty.
-  void setFindingState(const std::vector<PartPair>& pairs, FindingState state, const std::string& reason = {});
+  void setFindingState(const std::vector<PartPair>& pairs, FindingState state,
+                       const std::string& reason = {});
   /// Sets the moving part; std::nullopt for none. Throws UsageError if the part is locked.
   void setMovingPart(std::optional<PartId> id);
   /// Makes all parts in a group move as one. Throws UsageError like Scene::setMovingGroup().

@@ -70,9 +70,9 @@ glm::dvec3 normalOf(const TriangleCorners& t) {
 /// What ends or blocks a way.
 struct WayEnd {
   bool isFree = false;
-  double travel = 0.0;         ///< If free: length of the way, padding included [m].
-  double blockedTo = 0.0;      ///< The last pair of triangles blocks it up to here [m].
-  glm::dvec3 normal{0.0};      ///< Plane in which that pair parts; zero if no pair was seen.
+  double travel = 0.0;     ///< If free: length of the way, padding included [m].
+  double blockedTo = 0.0;  ///< The last pair of triangles blocks it up to here [m].
+  glm::dvec3 normal{0.0};  ///< Plane in which that pair parts; zero if no pair was seen.
   /// Normals of the pair's triangles that lead the part away from the scene, and how far along each parts the pair [m].
   std::array<glm::dvec3, 2> faceNormals{};
   std::array<double, 2> faceHeights{};

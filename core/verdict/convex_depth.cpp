@@ -122,9 +122,9 @@ std::optional<ConvexBody> convexBodyOf(const TriangleMesh& mesh) {
 
 std::optional<FreeingTranslation> convexDepth(const ConvexBody& scene, const ConvexBody& part,
                                               const RigidTransform& sceneFromPart) {
-  const std::size_t pairs = std::max({scene.edges.size() * part.edges.size(),
-                                      scene.faces.size() * part.corners.size(),
-                                      part.faces.size() * scene.corners.size()});
+  const std::size_t pairs =
+      std::max({scene.edges.size() * part.edges.size(), scene.faces.size() * part.corners.size(),
+                part.faces.size() * scene.corners.size()});
   if (pairs > kMaxConvexPairs) return std::nullopt;
   const glm::dvec3 origin = scene.corners.front();
   const PlacedConvex placedScene(scene, {}, origin), placedPart(part, sceneFromPart, origin);

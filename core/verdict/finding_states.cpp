@@ -46,8 +46,7 @@ ComparedFinding compared(const PairFinding& now, const PairRecord* before) {
   if (before->verdict == PairVerdict::Clear) return finding;
   finding.before = *before;
   // Marked by hand, it is not fixed as long as it is there.
-  const bool isAccepted =
-      before->state == FindingState::Accepted && finding.change != FindingChange::Worse;
+  const bool isAccepted = before->state == FindingState::Accepted && finding.change != FindingChange::Worse;
   finding.state = isAccepted ? FindingState::Accepted : FindingState::New;
   return finding;
 }

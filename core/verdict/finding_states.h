@@ -19,7 +19,8 @@ const char* wordOf(FindingChange change) noexcept;
 /// A finding of this check, of the last one, or of both.
 struct ComparedFinding {
   PartPair pair;
-  const PairFinding* now = nullptr;  ///< In the check; null if it is gone, or its parts were not checked this time.
+  const PairFinding* now =
+      nullptr;  ///< In the check; null if it is gone, or its parts were not checked this time.
   std::optional<PairRecord> before;  ///< No value if the last check did not find it.
   FindingChange change = FindingChange::New;
   /// What the user says, carried over. An accepted finding that became worse is New again, with its reason; one that is

@@ -194,9 +194,8 @@ class SceneChecker {
     }
     boxes.build();
     std::vector<NearPair> all;
-    boxes.forEachPair([&all](std::uint32_t i, std::uint32_t k) {
-      all.push_back({std::min(i, k), std::max(i, k)});
-    });
+    boxes.forEachPair(
+        [&all](std::uint32_t i, std::uint32_t k) { all.push_back({std::min(i, k), std::max(i, k)}); });
     std::ranges::sort(all, {}, [](const NearPair& p) { return std::pair(p.part, p.other); });
     std::vector<NearPair> pairs;
     for (const NearPair& pair : all) {
@@ -329,9 +328,7 @@ class SceneChecker {
     }
   }
 
-  ClashShape& shapeAt(std::size_t part) {
-    return *shapes_[shapeOf_.at(request_.parts[part].geometry.get())];
-  }
+  ClashShape& shapeAt(std::size_t part) { return *shapes_[shapeOf_.at(request_.parts[part].geometry.get())]; }
   const NormalConeTree& treeAt(std::size_t part) const { return request_.parts[part].geometry->tree(); }
 
   /// The finding of a pair that looks like the example, in the world.

@@ -43,7 +43,7 @@ SceneCheckRequest sceneCheckRequest(const Scene& scene, double threshold);
 /// A minimum below the threshold. World frame.
 struct FoundMinimum {
   glm::dvec3 partPoint{0.0}, otherPoint{0.0};  ///< [m]
-  double distance = 0.0;                         ///< [m]
+  double distance = 0.0;                       ///< [m]
   /// As in Lmd.
   bool isRegion = false, isBlocked = false, isMarginal = false;
 };
@@ -70,8 +70,8 @@ struct PairFinding {
   double distance = 0.0;  ///< Min distance of the surfaces [m]; 0 if they meet.
   /// Nearest points, on the pair's first part and on the other [m].
   glm::dvec3 partPoint{0.0}, otherPoint{0.0};
-  std::vector<FoundMinimum> minima;  ///< Below the threshold, nearest first; none if they meet.
-  bool isEveryMinimum = true;        ///< False if there are more than were kept.
+  std::vector<FoundMinimum> minima;      ///< Below the threshold, nearest first; none if they meet.
+  bool isEveryMinimum = true;            ///< False if there are more than were kept.
   std::optional<ClashMeasures> clash;    ///< If the verdict is Clash or Contained.
   std::optional<std::size_t> allowedBy;  ///< Index of the rule that allows it.
 

@@ -43,7 +43,7 @@ class DepthTarget {
 struct SurfacePiece {
   TriangleCorners corners;
   const DepthTarget* target;
-  double most;  ///< No point of it is deeper [m].
+  double most;                                  ///< No point of it is deeper [m].
   std::uint32_t nearest = NearestPoint::kNone;  ///< Triangle of the target that is nearest to its middle.
   bool operator<(const SurfacePiece& other) const noexcept { return most < other.most; }
 };

@@ -13,6 +13,7 @@ void addCommands(CLI::App& program, int, char**) {
   nearfit::bench::addSceneCommand(program);
   nearfit::bench::addProgramCommand(program);
   nearfit::bench::addCertifyCommand(program);
+  nearfit::bench::addPathCommand(program);
   nearfit::bench::addFeelCommand(program);
   nearfit::bench::addErrorCommand(program);
   nearfit::bench::addSkipsCommand(program);

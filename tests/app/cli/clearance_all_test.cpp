@@ -76,19 +76,19 @@ TEST_F(ClearanceAll, RulesOfTheCommandLineLeaveOutAndAllow) {
 }
 
 TEST_F(ClearanceAll, WhatMakesNoSenseIsWrongUsage) {
-  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-           {"--threshold", "-1"},
-           {"--threshold", "1 kg"},
-           {"--leave-out", "Plate"},
-           {"--leave-out", ":Cube"},
-           {"--press-fit", "Plate:Cube"},
-           {"--press-fit", "Plate:Cube=0"},
-           {"--press-fit", "Plate:Cube=2"},
-           {"--part", "Plate"},
-           {"--cutoff", "0.1"},
-           {"--json", "-", "--csv", "-"},
-           {"--json", path("x.json"), "--csv", path("x.json")},
-           {"--json", path("plate.obj")}}) {
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"--threshold", "-1"},
+                                             {"--threshold", "1 kg"},
+                                             {"--leave-out", "Plate"},
+                                             {"--leave-out", ":Cube"},
+                                             {"--press-fit", "Plate:Cube"},
+                                             {"--press-fit", "Plate:Cube=0"},
+                                             {"--press-fit", "Plate:Cube=2"},
+                                             {"--part", "Plate"},
+                                             {"--cutoff", "0.1"},
+                                             {"--json", "-", "--csv", "-"},
+                                             {"--json", path("x.json"), "--csv", path("x.json")},
+                                             {"--json", path("plate.obj")}}) {
     const auto result = check(clashing_, options);
     EXPECT_EQ(result.exitCode, 2) << options.back() << result.err;
   }

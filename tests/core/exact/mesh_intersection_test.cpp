@@ -94,8 +94,8 @@ TEST(MeshIntersection, CylindersThatCrossShareTheSolidOfSteinmetz) {
   constexpr double kRadius = 0.5;
   constexpr std::uint32_t kSegments = 256;
   const TriangleMesh upright = test::cylinderMesh(kRadius, 3.0, kSegments);
-  const TriangleMesh lying = test::transformed(
-      upright, 1.0, {glm::angleAxis(std::numbers::pi / 2, glm::dvec3(1, 0, 0)), {}});
+  const TriangleMesh lying =
+      test::transformed(upright, 1.0, {glm::angleAxis(std::numbers::pi / 2, glm::dvec3(1, 0, 0)), {}});
   const IntersectionVolume found = volumeOf(upright, lying);
   ASSERT_TRUE(found.volume) << static_cast<int>(found.problem);
   // Between those of the circles around and in the polygons.

@@ -143,8 +143,7 @@ TEST(ClashDepth, ABodyInsideAnotherIsFreedOutOfItsNearestSide) {
   ASSERT_TRUE(convex);
   EXPECT_TRUE(convex->isExact);
   EXPECT_NEAR(convex->translation.length, 2.0, 1e-12);
-  const auto hollow =
-      depthOf(test::cornerSolid(), test::boxMesh(glm::dvec3(0.2)), at({-0.5, -0.5, 0.5}));
+  const auto hollow = depthOf(test::cornerSolid(), test::boxMesh(glm::dvec3(0.2)), at({-0.5, -0.5, 0.5}));
   ASSERT_TRUE(hollow);
   EXPECT_NEAR(hollow->translation.length, 0.6, 1e-6);
 }

@@ -21,8 +21,7 @@ TEST(SurfaceDepth, OfABoxInAnotherIsThatOfItsDeepestCorner) {
 
 TEST(SurfaceDepth, OfAPegInANarrowBoreIsTheInterferenceHoweverLongItIs) {
   constexpr double kFit = 0.01;
-  const NormalConeTree tube(test::tubeMesh(0.3, 0.5, 1.0, 32)),
-      peg(test::cylinderMesh(0.3 + kFit, 3.0, 32));
+  const NormalConeTree tube(test::tubeMesh(0.3, 0.5, 1.0, 32)), peg(test::cylinderMesh(0.3 + kFit, 3.0, 32));
   const SurfaceDepth depth = findSurfaceDepth(tube, peg, {}, 0.0, kSamples);
   EXPECT_LE(depth.least, kFit + 1e-12);
   EXPECT_GE(depth.most, kFit - 1e-12);
