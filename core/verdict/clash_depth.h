@@ -27,8 +27,8 @@ struct DepthBody {
 
 /// Bounds on the work of findClashDepth().
 struct DepthLimits {
-  std::uint64_t maxNodePairs = 1'000'000;  ///< Some tenths of a second.
-  std::function<bool()> goOn = {};         ///< Called now and then; false ends the search. May be empty.
+  std::uint64_t maxNodePairs = 500'000;  ///< About half a second.
+  std::function<bool()> goOn = {};       ///< Called now and then; false ends the search. May be empty.
 };
 
 /// Finds a short translation of `part`, without rotation, that frees it from `scene`: after it, by the exact predicate
