@@ -110,7 +110,7 @@ class Scene {
   const std::vector<PairRule>& pairRules() const noexcept;
   /// Throws UsageError like checkPairRules().
   void setPairRules(std::vector<PairRule> rules);
-  /// What the last check found, in ascending order of pairs.
+  /// Findings of the last check, in ascending order of pairs.
   const std::vector<PairRecord>& pairRecords() const noexcept;
   /// The record of a pair; null if there is none. Valid until records change. O(log n).
   const PairRecord* findPairRecord(const PartPair& pair) const noexcept;
