@@ -57,8 +57,8 @@ struct PairRecord {
 /// Max records of a scene, so that a scene file stays within its limits; and max length of a reason [bytes of UTF-8].
 constexpr std::size_t kMaxPairRecords = 20'000, kMaxReasonBytes = 200;
 
-/// Throws UsageError if the pair is not in order, a number is not finite or negative, a reason is invalid, or a finding is
-/// accepted without one.
+/// Throws UsageError if the pair is not in order, a number is not finite or negative, a reason is invalid, or a
+/// finding is accepted without one.
 void checkPairRecord(const PairRecord& record);
 
 }  // namespace nearfit

@@ -98,7 +98,8 @@ struct NearPair {
   std::size_t part, other;
 };
 
-/// Everything that the finding of a pair depends on: geometries by index, relative pose and allowed interference by their bits.
+/// Everything that the finding of a pair depends on: geometries by index, relative pose and allowed interference by
+/// their bits.
 using PairKey = std::array<std::uint64_t, 10>;
 
 RigidTransform relativePoseOf(const CheckedPart& part, const CheckedPart& other) {
