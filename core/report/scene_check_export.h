@@ -24,8 +24,8 @@ std::string sceneCheckSummary(const SceneCheck& check);
 std::string sceneCheckCsv(const Scene& scene, const SceneCheck& check,
                           const std::vector<ComparedFinding>& compared);
 
-/// All of it as JSON: threshold, rules, counts, findings with points, minima, curves and measures, pairs left out, findings
-/// that are gone. Lengths are in metres, in the world frame; what is not known is null.
+/// All of it as JSON: threshold, rules, counts, findings with points, minima, curves and measures, pairs left out,
+/// findings that are gone. Lengths are in metres, in the world frame; what is not known is null.
 std::string sceneCheckJson(const Scene& scene, const SceneCheck& check,
                            const std::vector<ComparedFinding>& compared);
 

@@ -31,7 +31,7 @@ enum class PairVerdict : std::uint8_t {
 const char* wordOf(PairVerdict verdict) noexcept;
 std::optional<PairVerdict> pairVerdictNamed(std::string_view word) noexcept;
 
-/// What the user says about a finding.
+/// The user's word on a finding.
 enum class FindingState : std::uint8_t {
   New,       ///< Nothing yet.
   Accepted,  ///< It may stay as it is, for a reason.
@@ -42,7 +42,7 @@ enum class FindingState : std::uint8_t {
 const char* wordOf(FindingState state) noexcept;
 std::optional<FindingState> findingStateNamed(std::string_view word) noexcept;
 
-/// What the last check found of two parts, and what the user says about it; kept with the scene.
+/// Result of the last check for two parts, and the user's word on it; kept with the scene.
 struct PairRecord {
   PartPair pair;
   PairVerdict verdict = PairVerdict::Clear;
@@ -57,8 +57,8 @@ struct PairRecord {
 /// Max records of a scene, so that a scene file stays within its limits; and max length of a reason [bytes of UTF-8].
 constexpr std::size_t kMaxPairRecords = 20'000, kMaxReasonBytes = 200;
 
-/// Throws UsageError if the pair is not in order, a number is not finite or negative, a reason is invalid, or a finding is
-/// accepted without one.
+/// Throws UsageError if the pair is not in order, a number is not finite or negative, a reason is invalid, or a
+/// finding is accepted without one.
 void checkPairRecord(const PairRecord& record);
 
 }  // namespace nearfit

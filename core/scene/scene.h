@@ -20,8 +20,9 @@ namespace nearfit {
 
 class GroupBodies;
 
-/// Parts, groups, joints, haptic settings, and rules and records of checks, as a value. Copies are cheap because they share
-/// parts and groups; undo and threads keep copies. Each change either succeeds as a whole or throws UsageError and changes nothing.
+/// Parts, groups, joints, haptic settings, and rules and records of checks, as a value. Copies are cheap because
+/// they share parts and groups; undo and threads keep copies. Each change either succeeds as a whole or throws
+/// UsageError and changes nothing.
 class Scene {
  public:
   using PartPtr = std::shared_ptr<const Part>;
@@ -59,9 +60,9 @@ class Scene {
   /// name is taken, the hand moves it and it would be locked, or it is locked and more than its look (see
   /// differsOnlyInLookOrLock) or geometry would change.
   void replace(Part part);
-  /// Removes a part, with the joints that keep it and those that keep others on it, and the records of its pairs. If it is the moving part, the
-  /// scene has none afterwards; if it leads a moving group, another member leads. Throws UsageError if the part is
-  /// unknown or locked.
+  /// Removes a part, with the joints that keep it and those that keep others on it, and the records of its pairs.
+  /// If it is the moving part, the scene has none afterwards; if it leads a moving group, another member leads.
+  /// Throws UsageError if the part is unknown or locked.
   void remove(PartId id);
   /// Sets the moving part; std::nullopt for none. Throws UsageError if the part is unknown or locked.
   void setMovingPart(std::optional<PartId> id);
@@ -113,7 +114,7 @@ class Scene {
   const std::vector<PairRule>& pairRules() const noexcept;
   /// Throws UsageError like checkPairRules().
   void setPairRules(std::vector<PairRule> rules);
-  /// What the last check found, in ascending order of pairs.
+  /// Findings of the last check, in ascending order of pairs.
   const std::vector<PairRecord>& pairRecords() const noexcept;
   /// The record of a pair; null if there is none. Valid until records change. O(log n).
   const PairRecord* findPairRecord(const PartPair& pair) const noexcept;

@@ -67,7 +67,7 @@ glm::dvec3 normalOf(const TriangleCorners& t) {
   return unitOrZero(glm::cross(t[1] - t[0], t[2] - t[0]));
 }
 
-/// What ends or blocks a way.
+/// End of a way, or where it is blocked.
 struct WayEnd {
   bool isFree = false;
   double travel = 0.0;     ///< If free: length of the way, padding included [m].
@@ -140,7 +140,7 @@ class WayOut {
   struct Blocker {
     SweepStretch stretch;
     SweptEntry scene, part;
-    bool isExact = false;  ///< Of triangles, whose range is known.
+    bool isExact = false;  ///< The entries are triangles; the range is theirs.
     glm::dvec3 normal{0.0};
   };
   struct EndsLast {

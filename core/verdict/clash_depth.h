@@ -13,7 +13,7 @@ class NormalConeTree;
 
 /// Translation that frees two bodies that overlap, or of which one contains the other.
 struct ClashDepth {
-  FreeingTranslation translation;  ///< Of the part, in the frame of the scene's mesh.
+  FreeingTranslation translation;  ///< Moves the part; in the frame of the scene's mesh.
   /// True if no shorter one frees it; else the depth is at most its length.
   bool isExact = false;
   std::uint64_t nodePairs = 0;  ///< Pairs of nodes examined.
@@ -27,14 +27,14 @@ struct DepthBody {
 
 /// Bounds on the work of findClashDepth().
 struct DepthLimits {
-  std::uint64_t maxNodePairs = 1'000'000;  ///< Some tenths of a second.
-  std::function<bool()> goOn = {};         ///< Called now and then; false ends the search. May be empty.
+  std::uint64_t maxNodePairs = 500'000;  ///< About half a second.
+  std::function<bool()> goOn = {};       ///< Called now and then; false ends the search. May be empty.
 };
 
 /// Finds a short translation of `part`, without rotation, that frees it from `scene`: after it, by the exact predicate
 /// (interference.h), they have no point in common. Of two convex bodies it is the shortest (convex_depth.h).
 ///
-/// Of others it is the shortest of the ways out that were tried: along the normals where the surfaces meet, along axes
+/// For others it is the shortest of the ways out that were tried: along the normals where the surfaces meet, along axes
 /// and between them, and from the best of these along the planes that still block it. The way out along a direction is
 /// exact: pairs of triangles block ranges of it, and it ends at the first place that none blocks and where neither body
 /// is inside the other. Where only touching blocks it, directions tilted by a thousandth are tried.

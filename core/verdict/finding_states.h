@@ -23,7 +23,7 @@ struct ComparedFinding {
       nullptr;  ///< In the check; null if it is gone, or its parts were not checked this time.
   std::optional<PairRecord> before;  ///< No value if the last check did not find it.
   FindingChange change = FindingChange::New;
-  /// What the user says, carried over. An accepted finding that became worse is New again, with its reason; one that is
+  /// The user's word, carried over. An accepted finding that became worse is New again, with its reason; one that is
   /// gone is Fixed, and New again if it comes back.
   FindingState state = FindingState::New;
   std::string reason;
@@ -37,7 +37,7 @@ struct ComparedFinding {
 /// @param before  In ascending order of pairs, as Scene::pairRecords().
 std::vector<ComparedFinding> compareFindings(const SceneCheck& check, const std::vector<PairRecord>& before);
 
-/// What is to be kept with the scene: all that the user said something about, and of the rest the worst, up to
+/// The records to keep with the scene: all that the user said something about, and the worst of the rest, up to
 /// kMaxPairRecords in all. In ascending order of pairs.
 std::vector<PairRecord> recordsOf(const std::vector<ComparedFinding>& findings);
 

@@ -12,7 +12,7 @@
 
 namespace nearfit {
 
-/// What rules look at in a part.
+/// Properties of a part that rules look at.
 struct RuledPart {
   std::string name;
   std::optional<GroupId> group;  ///< std::nullopt: at the top level, in no group.

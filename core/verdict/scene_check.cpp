@@ -36,7 +36,7 @@ constexpr std::size_t kMaxCurvePairs = 1'000'000, kMaxVolumePairs = 1'000'000;
 /// Bound on the points looked at for the interference of a press fit: about a second.
 constexpr std::uint64_t kMaxDepthSamples = 200'000;
 
-/// What clashes need of a mesh, found when first needed and kept for all pairs. Thread-safe.
+/// Properties of a mesh that clashes need, found when first needed and kept for all pairs. Thread-safe.
 class ClashShape {
  public:
   explicit ClashShape(const PartGeometry& geometry) : geometry_(geometry) {}
@@ -98,7 +98,8 @@ struct NearPair {
   std::size_t part, other;
 };
 
-/// What the finding of a pair depends on: geometries by index, relative pose and allowed interference by their bits.
+/// Everything that the finding of a pair depends on: geometries by index, relative pose and allowed interference by
+/// their bits.
 using PairKey = std::array<std::uint64_t, 10>;
 
 RigidTransform relativePoseOf(const CheckedPart& part, const CheckedPart& other) {
@@ -276,7 +277,7 @@ class SceneChecker {
   ClashMeasures measure(const NearPair& pair, const RigidTransform& pose, PairVerdict verdict,
                         CheckWork& work, SharedProgress& shared) {
     ClashShape &part = shapeAt(pair.part), &other = shapeAt(pair.other);
-    // What it calls may not be left by an exception.
+    // CGAL, which calls this, must not be left by an exception of ours.
     const GoOn goOn = [&shared] {
       try {
         shared.add(0.0);

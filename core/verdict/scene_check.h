@@ -63,7 +63,7 @@ struct ClashMeasures {
   std::optional<SurfaceDepth> interference;
 };
 
-/// What a check found of two parts. World frame.
+/// Finding of a check for two parts. World frame.
 struct PairFinding {
   PartPair pair;
   PairVerdict verdict = PairVerdict::Near;
@@ -93,8 +93,8 @@ struct LeftOutPair {
 struct SceneCheck {
   double threshold = 0.0;  ///< [m]
   std::vector<PairRule> rules;
-  std::vector<PartId> parts;          ///< Those checked, in ascending order.
-  std::vector<PairFinding> findings;  ///< Of pairs within the threshold, in ascending order of pairs.
+  std::vector<PartId> parts;          ///< Checked ones, in ascending order.
+  std::vector<PairFinding> findings;  ///< For pairs within the threshold, in ascending order.
   std::vector<LeftOutPair> leftOut;   ///< Pairs whose boxes are within the threshold, in ascending order.
   std::size_t nearBoxes = 0;          ///< Pairs that were compared: their boxes are within the threshold.
 

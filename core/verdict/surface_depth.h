@@ -17,8 +17,9 @@ struct SurfaceDepth {
   double most = std::numeric_limits<double>::infinity();
 };
 
-/// Finds the max depth of a point of one surface below the other, to a hundredth, by bounds on ever smaller pieces of
-/// triangles, which are cut where triangles of the other surface end. Inside is what the closed components of a body enclose; nothing is deep in an open one.
+/// Finds the max depth of a point of one surface below the other, to a hundredth, by bounds on ever smaller pieces
+/// of triangles, which are cut where triangles of the other surface end. Inside is what the closed components of a
+/// body enclose; nothing is deep in an open one.
 ///
 /// @param within      Only whether the depth is within this matters [m]: the search ends once that is known; >= 0.
 /// @param maxSamples  Max number of points looked at, some microseconds each. At the bound `most` is what is left.

@@ -22,7 +22,7 @@ struct SweepStretch {
 
   bool isEmpty() const noexcept { return from > to; }
 
-  /// What an axis has changed.
+  /// Changes that an axis made.
   struct Cut {
     bool isFirst = false;  ///< It now determines where they begin to meet.
     bool isLast = false;   ///< It now determines where they part.
