@@ -55,8 +55,8 @@ void DesktopPartsTest::cancellingTheUnitAddsNothing() {
   whenModal<QFileDialog>([&](QFileDialog* dialog) {
     whenModal<QDialog>(
         [](QDialog* question) {
-          // The unit chosen by the test before is offered again.
-          QVERIFY(question->findChild<QRadioButton*>(QStringLiteral("unit-cm"))->isChecked());
+          // Another run chose centimetres; by its size it is in millimetres.
+          QVERIFY(question->findChild<QRadioButton*>(QStringLiteral("unit-mm"))->isChecked());
           QTest::keyClick(question, Qt::Key_Escape);
         },
         QStringLiteral("unitDialog"));

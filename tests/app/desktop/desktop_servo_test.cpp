@@ -92,6 +92,7 @@ void DesktopServoTest::aPartThatWasAddedIsSelectedAndTakenInHandByOneClick() {
   d.add({d.movingFile});
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
   d.window().document().addParts({d.fixedFile}, 1e-3);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
   QTRY_COMPARE(d.window().selection().current(), std::optional(d.partId("fixed")));
   QCOMPARE(d.window().selection().parts().size(), std::size_t{1});
   auto* take = d.widget<QToolButton>("takeInHandButton");

@@ -108,7 +108,7 @@ TEST(ImportFormats, ProgressGrowsWhileOneFaceIsMeshed) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("ball.step", kBall);
   std::vector<double> told;
-  const CadDocument document = imported(file, {{1e-7, 0.0}, {}}, [&](double fraction) {
+  const CadDocument document = imported(file, {{7e-7, 0.0}, {}}, [&](double fraction) {
     if (told.empty() || fraction > told.back()) told.push_back(fraction);
     return true;
   });
