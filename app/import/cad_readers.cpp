@@ -114,7 +114,9 @@ CadDocument readStep(const ImportJob& job) {
   Handle(TDocStd_Document) target = document;
   if (!reader.Transfer(target, progress.stageTo(stageEndsOf(job).transferred))) failUnreadable(job, "STEP");
   job.endStage("transfer");
-  return readXcaf(*document, {kMetresPerMillimetre}, job, progress);
+  XcafOptions options{kMetresPerMillimetre};
+  options.hasDirectives = true;
+  return readXcaf(*document, options, job, progress);
 }
 
 CadDocument readIges(const ImportJob& job) {

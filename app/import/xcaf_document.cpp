@@ -312,7 +312,8 @@ class XcafReader {
     Handle(TDataStd_Name) name;
     if (!label.FindAttribute(TDataStd_Name::GetID(), name)) return {};
     const TCollection_AsciiString utf8(name->Get(), 0);
-    return cleanName(decodedStepText({utf8.ToCString(), static_cast<std::size_t>(utf8.Length())}));
+    const std::string_view text(utf8.ToCString(), static_cast<std::size_t>(utf8.Length()));
+    return cleanName(options_.hasDirectives ? decodedStepText(text) : std::string(text));
   }
 
   std::optional<CadColour> colourOfLabel(const TDF_Label& label) const {

@@ -18,8 +18,9 @@ class OccProgress;
 struct XcafOptions {
   double metresPerUnit = 1e-3;  ///< Of the document's coordinates; 1 and hasUnit false if they have none.
   bool hasUnit = true;
-  bool areTriangles = false;  ///< Its shapes hold triangles alone.
-  bool sewsFaces = false;     ///< Faces come one by one, and are to be joined where they meet.
+  bool areTriangles = false;   ///< Its shapes hold triangles alone.
+  bool sewsFaces = false;      ///< Faces come one by one, and are to be joined where they meet.
+  bool hasDirectives = false;  ///< Control directives of STEP stand for characters in its names.
 };
 
 /// Geometry of a document before it is meshed. Valid while ImportJob::takeExact runs.

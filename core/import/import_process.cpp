@@ -395,6 +395,8 @@ void writeRequest(int descriptor, std::span<const std::byte> bytes, const std::f
       throwSystemError(file.string(), fmt::format("there is no memory for its {}", work.name).c_str(), errno);
     bytes = bytes.subspan(static_cast<std::size_t>(count));
   }
+  // The child shares the place to read from.
+  ::lseek(descriptor, 0, SEEK_SET);
 }
 
 /// @param request  Descriptor; -1: none.

@@ -34,7 +34,7 @@ constexpr double kBuilding = 0.5;
 constexpr std::size_t kMaxCurvePairs = 1'000'000, kMaxVolumePairs = 1'000'000;
 
 /// Bound on the points looked at for the interference of a press fit: about a second.
-constexpr std::uint64_t kMaxDepthSamples = 200'000;
+constexpr std::uint64_t kMaxDepthSamples = 1'000'000;
 
 /// Properties of a mesh that clashes need, found when first needed and kept for all pairs. Thread-safe.
 class ClashShape {

@@ -105,7 +105,7 @@ class DeepestPoint {
 
  private:
   bool isKnown() const {
-    return least_ > within_ || pieces_.empty() ||
+    return (within_ > 0.0 && least_ > within_) || pieces_.empty() ||
            pieces_.top().most <= std::max((1.0 + kDepthShare) * least_, within_);
   }
   bool isSpent() const noexcept { return isStopped_ || samples_ >= maxSamples_; }

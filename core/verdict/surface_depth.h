@@ -21,7 +21,8 @@ struct SurfaceDepth {
 /// of triangles, which are cut where triangles of the other surface end. Inside is what the closed components of a
 /// body enclose; nothing is deep in an open one.
 ///
-/// @param within      Only whether the depth is within this matters [m]: the search ends once that is known; >= 0.
+/// @param within      Only whether the depth is within this matters [m]: the search ends once that is known. 0: the depth
+///                    itself is wanted.
 /// @param maxSamples  Max number of points looked at, some microseconds each. At the bound `most` is what is left.
 /// @param goOn        Called now and then; false ends the search likewise. May be empty.
 /// Accurate to some roundings of coordinates. Allocates.
