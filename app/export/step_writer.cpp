@@ -20,6 +20,7 @@
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
+#include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <TCollection_ExtendedString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDF_Label.hxx>
@@ -227,6 +228,14 @@ std::uint32_t characterOf(std::string_view utf8, std::size_t& bytes) {
   return code;
 }
 
+/// Names of instances are their ids too: OpenCASCADE's readers take the id where a name has no ASCII character.
+void setIdsOfInstances(const StepData_StepModel& model) {
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const auto instance = Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(model.Value(i));
+    if (!instance.IsNull()) instance->SetId(instance->Name());
+  }
+}
+
 }  // namespace
 
 std::string stepString(std::string_view utf8) {
@@ -274,6 +283,7 @@ void writeStep(const StepRequest& request, std::vector<ProductShape>& shapes,
   if (!writer.Transfer(document, STEPControl_AsIs, nullptr, stages.stageTo(1.0))) throwUnwritten();
   const Handle(StepData_StepModel) model = writer.ChangeWriter().Model();
   nameHeader(model, names.placeholderOf(request.name));
+  setIdsOfInstances(*model);
   progress(kTransferred);
   const Handle(StepData_Protocol) protocol =
       Handle(StepData_Protocol)::DownCast(writer.Writer().WS()->Protocol());

@@ -9,18 +9,23 @@
 #include <BRep_Builder.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <IGESCAFControl_Reader.hxx>
+#include <Interface_InterfaceModel.hxx>
 #include <Interface_Static.hxx>
 #include <Message_ProgressRange.hxx>
 #include <RWGltf_CafReader.hxx>
 #include <RWMesh_CoordinateSystem.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPControl_Reader.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <TCollection_AsciiString.hxx>
+#include <TCollection_HAsciiString.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopoDS_Shape.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_WorkSession.hxx>
 #include <fmt/format.h>
 
 #include "app/import/companion_list.h"
@@ -85,6 +90,21 @@ CadDocument readGltfByOcc(const ImportJob& job) {
   return readXcaf(*document, options, job, progress);
 }
 
+/// OpenCASCADE takes the id where a name has no ASCII character that is seen: names of products and instances in other
+/// scripts would be lost.
+void keepNamesOfOtherScripts(const Interface_InterfaceModel& model) {
+  const auto keep = [](auto& entity) {
+    const Handle(TCollection_HAsciiString) name = entity.Name();
+    if (!name.IsNull() && name->Length() > 0 && name->UsefullLength() == 0) entity.SetId(name);
+  };
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(Standard_Transient) entity = model.Value(i);
+    if (const auto product = Handle(StepBasic_Product)::DownCast(entity); !product.IsNull()) keep(*product);
+    const auto instance = Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(entity);
+    if (!instance.IsNull()) keep(*instance);
+  }
+}
+
 }  // namespace
 
 CadDocument readStep(const ImportJob& job) {
@@ -107,6 +127,7 @@ CadDocument readStep(const ImportJob& job) {
   std::istream stream(&buffer);
   if (reader.ChangeReader().ReadStream(job.file.filename().c_str(), stream) != IFSelect_RetDone)
     failUnreadable(job, "STEP");
+  keepNamesOfOtherScripts(*reader.ChangeReader().WS()->Model());
   job.progress(stageEndsOf(job).read);
   job.endStage("read");
   progress.stageTo(stageEndsOf(job).read);

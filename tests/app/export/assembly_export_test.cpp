@@ -319,6 +319,28 @@ TEST_F(AssemblyExport, TooManyFacetsAreRefusedAndTheOldFileStays) {
   EXPECT_EQ(test::readBytes(file_), "old");
 }
 
+/// OpenCASCADE takes the id for a name without ASCII characters: both sides see to it that nothing is lost.
+TEST_F(AssemblyExport, NamesInOtherScriptsAloneComeBack) {
+  Scene scene;
+  const PartGeometryPtr geometry = test::geometryOf(test::boxMesh(glm::dvec3(1.0)));
+  for (const char* name : {"軸", "Ось", "\U0001F529"})
+    scene.add(test::partOf(geometry, name));
+  write(scene, "other.step");
+  std::string text = test::readBytes(file_);
+  EXPECT_NE(text.find("_OCCURRENCE('\\X2\\8EF8\\X0\\',"), std::string::npos) << "the id is the name too";
+  const auto names = [this] {
+    const CadDocument document = imported(file_);
+    const auto nodes = nodesOf(document);
+    return nodes.contains("軸") && nodes.contains("Ось") && nodes.contains("\U0001F529");
+  };
+  EXPECT_TRUE(names());
+  // As other programs write it.
+  for (std::size_t at = 0; (at = text.find("_OCCURRENCE('\\X", at)) != std::string::npos; ++at)
+    text.replace(at + 13, text.find("',", at) - at - 13, "7");
+  folder_.write("other.step", text);
+  EXPECT_TRUE(names());
+}
+
 TEST_F(AssemblyExport, GltfIsReadByOpenCascade) {
   write(model_.scene, "fit.glb");
   const CadDocument document = imported(file_);
