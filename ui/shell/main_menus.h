@@ -26,6 +26,7 @@ class PictureTaker;
 class PlacingTools;
 class RecordAction;
 class Replay;
+class SceneCheckPanel;
 class SectionTool;
 class UndoActions;
 class ViewActions;
@@ -75,6 +76,7 @@ class MainMenus : public QObject {
     RecordAction& record;
     Replay& replay;
     ClearanceMapPanel& clearanceMap;
+    SceneCheckPanel& sceneCheck;
   };
   /// @param panels  Menu of the docks, for the view menu.
   /// @param units   Menu of units, for the view menu.

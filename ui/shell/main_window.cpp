@@ -37,6 +37,7 @@
 #include "ui/panels/replay/record_action.h"
 #include "ui/panels/replay/replay.h"
 #include "ui/panels/replay/timeline.h"
+#include "ui/panels/verdict/scene_check_panel.h"
 #include "ui/panels/view/view_actions.h"
 #include "ui/shell/main_menus.h"
 #include "ui/shell/title_and_status.h"
@@ -210,6 +211,7 @@ void MainWindow::makeReviewPanels() {
     });
   }
   makeCheckPanel(*plotsDock);
+  makeSceneCheckPanel(*plotsDock);
   connectReplay(*timelineDock);
   // Whoever turns the colours on wants the numbers too.
   connect(clearanceMap_->colour(), &QAction::triggered, mapDock, [mapDock](bool isOn) {
@@ -231,6 +233,25 @@ void MainWindow::makeCheckPanel(QDockWidget& neighbour) {
   connect(parts_, &PartCommands::checkRequested, dock, [dock] {
     dock->show();
     bringToFront(*dock);
+  });
+}
+
+void MainWindow::makeSceneCheckPanel(QDockWidget& neighbour) {
+  sceneCheck_ = new SceneCheckPanel({session_, *viewport_}, this);
+  listenTo(*sceneCheck_);
+  connect(units_, &UnitMenu::unitChanged, sceneCheck_, &SceneCheckPanel::refresh);
+  QDockWidget* dock = addDock("sceneCheckDock", tr("Scene check"),
+                              makeScrollPane(sceneCheck_, "sceneCheckScroll"), Qt::BottomDockWidgetArea);
+  tabifyDockWidget(&neighbour, dock);
+  dock->hide();
+  addDockButton(*dock, tr("Show or hide which pairs of parts clash, touch or are near"));
+  connect(dock->toggleViewAction(), &QAction::triggered, dock, [dock](bool isShown) {
+    if (isShown) bringToFront(*dock);
+  });
+  connect(sceneCheck_->action(), &QAction::triggered, dock, [this, dock] {
+    dock->show();
+    bringToFront(*dock);
+    sceneCheck_->begin();
   });
 }
 
@@ -282,7 +303,8 @@ void MainWindow::makeToolsAndMenus() {
   const auto* menus =
       new MainMenus(this,
                     {*files_, *exporter, *pictures, *undo_, *parts_, *box, *viewActions_, *measure, *section,
-                     *placing_, *align, *drop, *feel_, *handControl_, *recording_, *replay_, *clearanceMap_},
+                     *placing_, *align, *drop, *feel_, *handControl_, *recording_, *replay_, *clearanceMap_,
+                     *sceneCheck_},
                     panelsMenu_, units_);
   shell_ = new WindowShell(this, *files_, menus->viewMenu(), menus->helpMenu());
   listenTo(*placing_, *handControl_, *selectedPose_, *align, *drop, *box, *exporter, *pictures);

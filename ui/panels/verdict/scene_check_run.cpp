@@ -128,6 +128,7 @@ void SceneCheckRun::compareWithScene() {
 }
 
 bool SceneCheckRun::isAsChecked(const PartPair& pair) const {
+  if (checked_ == nullptr) return false;
   const auto isSameAs = [this](PartId id) {
     const Part* part = context_.session.scene().find(id);
     const auto before = std::ranges::lower_bound(checked_->request.parts, id, {}, &CheckedPart::id);

@@ -49,7 +49,7 @@ class SceneCheckRun : public QObject {
   const std::shared_ptr<const CheckedScene>& checked() const noexcept { return checked_; }
   /// True if parts or rules have changed since the last result, or have moved some tenths of a second ago.
   bool isStale() const noexcept { return isStale_; }
-  /// True if both parts are where they were when they were checked, and look as they did. There is a result.
+  /// True if both parts are where they were when they were checked, and look as they did. False without a result.
   bool isAsChecked(const PartPair& pair) const;
 
  signals:
