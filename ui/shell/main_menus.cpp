@@ -16,6 +16,7 @@
 #include "ui/panels/parts/joint_actions.h"
 #include "ui/panels/parts/part_commands.h"
 #include "ui/panels/parts/tree_actions.h"
+#include "ui/panels/replay/path_commands.h"
 #include "ui/panels/replay/record_action.h"
 #include "ui/panels/replay/replay.h"
 #include "ui/panels/verdict/scene_check_panel.h"
@@ -129,6 +130,7 @@ void MainMenus::setUpFeelMenu() {
   QMenu* menu = window_->menuBar()->addMenu(tr("Fee&l"));
   menu->addActions({feel.start, feel.stop, commands_.hand.letGoAction(), feel.clutch, menu->addSeparator(),
                     feel.settings, menu->addSeparator(), &commands_.record, commands_.replay.openAction()});
+  menu->addMenu(&commands_.paths.menu());
 }
 
 void MainMenus::setUpToolBar() {

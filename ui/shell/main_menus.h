@@ -22,6 +22,7 @@ class FileCommands;
 class HandControl;
 class MeasureTool;
 class PartCommands;
+class PathCommands;
 class PictureTaker;
 class PlacingTools;
 class RecordAction;
@@ -77,6 +78,7 @@ class MainMenus : public QObject {
     Replay& replay;
     ClearanceMapPanel& clearanceMap;
     SceneCheckPanel& sceneCheck;
+    PathCommands& paths;
   };
   /// @param panels  Menu of the docks, for the view menu.
   /// @param units   Menu of units, for the view menu.

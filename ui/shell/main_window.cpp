@@ -34,6 +34,7 @@
 #include "ui/panels/plots/plot_panel.h"
 #include "ui/panels/pose/pose_panel.h"
 #include "ui/panels/pose/selected_pose.h"
+#include "ui/panels/replay/path_commands.h"
 #include "ui/panels/replay/record_action.h"
 #include "ui/panels/replay/replay.h"
 #include "ui/panels/replay/timeline.h"
@@ -187,7 +188,8 @@ void MainWindow::makeReviewPanels() {
   auto* timeline = new Timeline(this);
   replay_ = new Replay({session_, *hand_, *guard_, *viewport_}, *timeline, this);
   recording_ = new RecordAction(*hand_, this);
-  listenTo(*clearances, *clearanceMap_, *plots_, *replay_, *recording_);
+  paths_ = new PathCommands({session_, *replay_, *timeline}, this);
+  listenTo(*clearances, *clearanceMap_, *plots_, *replay_, *recording_, *paths_);
   constexpr Qt::DockWidgetArea kBottom = Qt::BottomDockWidgetArea;
   QDockWidget* clearanceDock =
       addDock("clearanceDock", tr("Clearances"), makeScrollPane(clearances, "clearanceScroll"), kBottom);
@@ -274,6 +276,7 @@ void MainWindow::connectReplay(QDockWidget& timelineDock) {
     timelineDock.raise();
   });
   connect(replay_, &Replay::opened, plots_, &PlotPanel::showRecording);
+  connect(replay_, &Replay::rowsChanged, plots_, &PlotPanel::showRecording);
   connect(replay_, &Replay::timeShown, plots_, &PlotPanel::setRecordingTime);
   connect(replay_, &Replay::closed, plots_, &PlotPanel::showLive);
   connect(replay_, &Replay::rowShown, &feel_->panel(), &FeelPanel::showRecorded);
@@ -304,7 +307,7 @@ void MainWindow::makeToolsAndMenus() {
       new MainMenus(this,
                     {*files_, *exporter, *pictures, *undo_, *parts_, *box, *viewActions_, *measure, *section,
                      *placing_, *align, *drop, *feel_, *handControl_, *recording_, *replay_, *clearanceMap_,
-                     *sceneCheck_},
+                     *sceneCheck_, *paths_},
                     panelsMenu_, units_);
   shell_ = new WindowShell(this, *files_, menus->viewMenu(), menus->helpMenu());
   listenTo(*placing_, *handControl_, *selectedPose_, *align, *drop, *box, *exporter, *pictures);

@@ -23,6 +23,7 @@ class MoveGuard;
 class NoteBar;
 class PartChecks;
 class PartCommands;
+class PathCommands;
 class PlacingTools;
 class PlotPanel;
 class PosePanel;
@@ -127,6 +128,7 @@ class MainWindow : public QMainWindow {
   PlotPanel* plots_ = nullptr;
   Replay* replay_ = nullptr;
   SceneCheckPanel* sceneCheck_ = nullptr;
+  PathCommands* paths_ = nullptr;
   RecordAction* recording_ = nullptr;
   PlacingTools* placing_ = nullptr;
   HandControl* handControl_ = nullptr;
