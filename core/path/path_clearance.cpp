@@ -95,7 +95,7 @@ std::vector<PathClearance> clearancesAlong(const Scene& scene, const AssemblyPat
 }
 
 std::optional<LeastPathClearance> leastOf(const std::vector<PathClearance>& clearances,
-                                      const AssemblyPath& path) {
+                                          const AssemblyPath& path) {
   std::optional<LeastPathClearance> least;
   for (const PathClearance& clearance : clearances) {
     for (std::size_t i = 0; i < clearance.distances.size(); ++i) {

@@ -10,8 +10,8 @@
 
 namespace nearfit {
 
-/// The path with poses added on the way between others, so that it can be played and measured evenly: all its own poses
-/// stay, and so does the motion.
+/// The path with poses added on the way between others, so that it can be played and measured evenly: all its
+/// own poses stay, and so does the motion.
 /// @param step      Max time between poses [s]; > 0. Longer if more than `maxAdded` poses would be added.
 /// @param maxAdded  There are never more than kMaxPathPoses in all.
 AssemblyPath sampledPath(const AssemblyPath& path, double step, std::size_t maxAdded);

@@ -249,7 +249,8 @@ QVariant PairFindingsModel::sortKeyOf(const ShownFinding& row, int column) {
     case Reason:
       return textOf(row, column);
     case Verdict: {
-      // The worst last, so that a table that descends begins with it: forbidden ones, then by verdict, depth and nearness.
+      // The worst last, so that a table that descends begins with it: forbidden ones, then by verdict, depth
+      // and nearness.
       const double depth = row.depth.value_or(0.0), distance = row.distance.value_or(kMaxPosition);
       const double within = depth > 0.0 ? depth / (1.0 + depth) : 1.0 / (1.0 + distance) - 1.0;
       return 100.0 * severityOf(row) + 10.0 * static_cast<double>(row.verdict) + within;

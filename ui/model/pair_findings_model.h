@@ -49,8 +49,8 @@ QString depthText(const ShownFinding& finding);
 /// Formats a volume in the unit of length that the user chose: "12.3 mm³", "0.5 in³".
 QString formatVolume(double cubicMetres);
 
-/// Findings of a scene check as a table: the two parts, verdict, measures, change since the last check, and what the user
-/// says about it.
+/// Findings of a scene check as a table: the two parts, verdict, measures, change since the last check, and
+/// what the user says about it.
 class PairFindingsModel : public QAbstractTableModel {
   Q_OBJECT
 

@@ -303,12 +303,11 @@ void MainWindow::makeToolsAndMenus() {
       new Exporter(session_, *selection_, *document_, [this] { return poses_->poseOfMoving(); }, this);
   auto* pictures = new PictureTaker(session_, viewport_->pictures(), this);
   makeReviewPanels();
-  const auto* menus =
-      new MainMenus(this,
-                    {*files_, *exporter, *pictures, *undo_, *parts_, *box, *viewActions_, *measure, *section,
-                     *placing_, *align, *drop, *feel_, *handControl_, *recording_, *replay_, *clearanceMap_,
-                     *sceneCheck_, *paths_},
-                    panelsMenu_, units_);
+  const auto* menus = new MainMenus(
+      this,
+      {*files_, *exporter, *pictures, *undo_, *parts_, *box, *viewActions_, *measure, *section, *placing_,
+       *align, *drop, *feel_, *handControl_, *recording_, *replay_, *clearanceMap_, *sceneCheck_, *paths_},
+      panelsMenu_, units_);
   shell_ = new WindowShell(this, *files_, menus->viewMenu(), menus->helpMenu());
   listenTo(*placing_, *handControl_, *selectedPose_, *align, *drop, *box, *exporter, *pictures);
   connect(units_, &UnitMenu::unitChanged, measure, &MeasureTool::refresh);

@@ -18,8 +18,9 @@ using ui::PairFindingsModel;
 
 namespace {
 
-/// The cube of 40 mm, that of 20 mm whose face is 5 mm above it, and a plug of 20 mm that is 5 mm deep in the side of the
-/// first. All are checked with a threshold of 10 mm: the first two are near, the second and the plug are 15.8 mm apart.
+/// The cube of 40 mm, that of 20 mm whose face is 5 mm above it, and a plug of 20 mm that is 5 mm deep in the
+/// side of the first. All are checked with a threshold of 10 mm: the first two are near, the second and the
+/// plug are 15.8 mm apart.
 struct SceneCheckFixture {
   SceneCheckFixture() {
     d.addCubes();

@@ -118,8 +118,8 @@ void PairFindingsModelTest::whatAHiddenPartHadIsNotListed() {
 void PairFindingsModelTest::statesFollowTheScene() {
   Found f;
   QVERIFY(!f.model.at(0).isKept);
-  const PairRecord record{
-      {f.ids[0], f.ids[1]}, PairVerdict::Clash, 0.0, 0.0012, FindingState::Accepted, "press fit"};
+  const PairRecord record{{f.ids[0], f.ids[1]},   PairVerdict::Clash, 0.0, 0.0012,
+                          FindingState::Accepted, "press fit"};
   f.scene.setPairRecords({record});
   const QSignalSpy changed(&f.model, &PairFindingsModel::dataChanged);
   f.model.follow(f.scene);

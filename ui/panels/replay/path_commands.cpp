@@ -84,7 +84,7 @@ QString unprovenText(const Scene& scene, const UnprovenPlace& place, double sepa
 }  // namespace
 
 PathCommands::PathCommands(const Context& context, QWidget* window)
-    : QObject(window), context_(context), window_(window), menu_(new QMenu(tr("Pa&th"), window)) {
+    : QObject(window), context_(context), window_(window), menu_(new QMenu(tr("P&ath"), window)) {
   menu_->setObjectName(QStringLiteral("pathMenu"));
   menu_->setToolTipsVisible(true);
   forMotion_ << add("pathStart", tr("Start at the time &shown"),
@@ -96,9 +96,10 @@ PathCommands::PathCommands(const Context& context, QWidget* window)
              << add("pathWhole", tr("Take all of the &motion"), tr("Leave nothing out"),
                     &PathCommands::takeWhole);
   menu_->addSeparator();
-  forMotion_ << add("savePath", tr("Save as &path…"),
-                    tr("Save the motion as a path: trimmed, thinned and smoothed only as far as it stays free"),
-                    &PathCommands::savePath);
+  forMotion_ << add(
+      "savePath", tr("Save as &path…"),
+      tr("Save the motion as a path: trimmed, thinned and smoothed only as far as it stays free"),
+      &PathCommands::savePath);
   clearance_ = add("plotPathClearance", tr("Plot &clearance"),
                    tr("Find the clearance to other parts along the path, for the timeline and the plots"),
                    &PathCommands::plotClearance);
@@ -106,9 +107,9 @@ PathCommands::PathCommands(const Context& context, QWidget* window)
   forMotion_ << add("certifyPath", tr("Certif&y…"),
                     tr("Prove that the part keeps a separation from all others, everywhere on the path"),
                     &PathCommands::certify);
-  certificate_ = add("saveCertificate", tr("Save ce&rtificate…"),
-                     tr("Save the proof as a file that nearfit-cli verify proves anew"),
-                     &PathCommands::saveCertificate);
+  certificate_ =
+      add("saveCertificate", tr("Save ce&rtificate…"),
+          tr("Save the proof as a file that nearfit-cli verify proves anew"), &PathCommands::saveCertificate);
   menu_->addSeparator();
   forMotion_ << add("exportPathCsv", tr("Export p&oses…"), tr("Write the poses as a table (CSV)"),
                     &PathCommands::exportCsv)
@@ -173,11 +174,8 @@ std::optional<AssemblyPath> PathCommands::rangedPath() {
 
 std::optional<QString> PathCommands::askForFile(const QString& title, const QString& filter,
                                                 const QString& suffix) {
-  return askForSave({title,
-                     Preferences::lastFolder() + QStringLiteral("/path.") + suffix,
-                     {filter},
-                     {suffix}},
-                    window_);
+  return askForSave(
+      {title, Preferences::lastFolder() + QStringLiteral("/path.") + suffix, {filter}, {suffix}}, window_);
 }
 
 void PathCommands::run(const QString& title, const QString& attempt, BackgroundTask::Job work,
@@ -227,11 +225,10 @@ void PathCommands::savePath() {
   const Scene scene = context_.session.scene();
   const auto separation = orTell(attempt, [&] { return defaultSeparation(scene, *ranged); });
   if (!separation) return;
-  const auto wishes = askForPathWishes(context_.timeline.range(), context_.timeline.duration(), *separation,
-                                       window_);
+  const auto wishes =
+      askForPathWishes(context_.timeline.range(), context_.timeline.duration(), *separation, window_);
   if (!wishes) return;
-  const auto path =
-      orTell(attempt, [&] { return context_.replay.pathBetween(wishes->from, wishes->to); });
+  const auto path = orTell(attempt, [&] { return context_.replay.pathBetween(wishes->from, wishes->to); });
   if (!path) return;
   const auto file = askForFile(tr("Save path"), tr("Paths (*.nfpath)"), QStringLiteral("nfpath"));
   if (!file) return;
@@ -256,8 +253,7 @@ void PathCommands::plotClearance() {
   const QString attempt = tr("The clearance could not be found.");
   const Scene scene = context_.session.scene();
   const AssemblyPath path = context_.replay.playedPath();
-  const auto range =
-      orTell(attempt, [&] { return kClearanceRange * pathBodies(scene, path).radius; });
+  const auto range = orTell(attempt, [&] { return kClearanceRange * pathBodies(scene, path).radius; });
   if (!range) return;
   const auto found = std::make_shared<std::vector<PathClearance>>();
   const auto work = [found, scene, path, range = *range](const ProgressCallback& progress) {
@@ -288,8 +284,8 @@ void PathCommands::certify() {
   certified->path = *path;
   const bool isSaved = !context_.session.file().empty() && !context_.session.isModified();
   const auto work = [certified, separation = *separation,
-                     file = isSaved ? context_.session.file() : std::filesystem::path()](
-                        const ProgressCallback& progress) {
+                     file = isSaved ? context_.session.file()
+                                    : std::filesystem::path()](const ProgressCallback& progress) {
     if (!file.empty()) certified->sceneSha256 = sha256OfFile(file);
     const PathCertifier certifier(certified->scene, certified->path, separation,
                                   stageCallback(progress, 0.0, kPrepared));
@@ -319,13 +315,14 @@ void PathCommands::showCertified() {
   }
   const double time = proof.unproven->time - start;
   context_.replay.goTo(time);
-  context_.timeline.showResult(
-      unprovenText(certified_->scene, *proof.unproven, proof.separation, start), time);
+  context_.timeline.showResult(unprovenText(certified_->scene, *proof.unproven, proof.separation, start),
+                               time);
 }
 
 void PathCommands::saveCertificate() {
   if (certified_ == nullptr || !certified_->proof.isFree()) return;
-  const auto file = askForFile(tr("Save certificate"), tr("Certificates (*.nfcert)"), QStringLiteral("nfcert"));
+  const auto file =
+      askForFile(tr("Save certificate"), tr("Certificates (*.nfcert)"), QStringLiteral("nfcert"));
   if (!file || certified_ == nullptr) return;
   const auto work = [certified = certified_, to = toPath(*file)](const ProgressCallback&) {
     atomicWrite(to, certificateText(certificateOf(certified->scene, certified->path, certified->proof,

@@ -24,9 +24,9 @@ class ProgressDialog;
 class Replay;
 class Timeline;
 
-/// Commands on the motion that the timeline shows, a recording or a path: saves it as a path, plots clearances along it,
-/// certifies and exports it. They take the timeline's range. Long work runs in threads of low priority, with progress
-/// and *Cancel*.
+/// Commands on the motion that the timeline shows, a recording or a path: saves it as a path, plots
+/// clearances along it, certifies and exports it. They take the timeline's range. Long work runs in threads
+/// of low priority, with progress and *Cancel*.
 class PathCommands : public QObject {
   Q_OBJECT
 

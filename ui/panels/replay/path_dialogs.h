@@ -9,9 +9,10 @@ namespace nearfit::ui {
 
 /// How a motion is saved as a path.
 struct PathWishes {
-  double from = 0.0, to = 0.0;         ///< On the timeline [s].
-  std::optional<double> thin, smooth;  ///< Max distance that a point of the part may move [m]; no value: not at all.
-  double separation = 0.0;             ///< What thinning and smoothing keep from other parts [m].
+  double from = 0.0, to = 0.0;  ///< On the timeline [s].
+  std::optional<double> thin,
+      smooth;               ///< Max distance that a point of the part may move [m]; no value: not at all.
+  double separation = 0.0;  ///< What thinning and smoothing keep from other parts [m].
 };
 
 /// Asks how to save a motion as a path.

@@ -112,8 +112,8 @@ void Replay::askAndOpen() {
 void Replay::open(const QString& file) {
   if (task_.isRunning() || hand_.status().isTaken()) return;
   if (!session_.scene().movingPart()) {
-    emit failed({tr("The recording cannot be played."),
-                 tr("No part is in hand. Take in hand the part that moved.")});
+    emit failed(
+        {tr("The recording cannot be played."), tr("No part is in hand. Take in hand the part that moved.")});
     return;
   }
   close();

@@ -29,9 +29,9 @@ class ProgressDialog;
 class Timeline;
 class Viewport;
 
-/// Plays a recording or a path in the view, as soon as it is open: reads it in another thread, and shows its rows as time
-/// passes. Does not change the session; when the recording is closed, everything is as it was. None is played while a part is
-/// in hand: only one may move the part, and the servo does.
+/// Plays a recording or a path in the view, as soon as it is open: reads it in another thread, and shows its
+/// rows as time passes. Does not change the session; when the recording is closed, everything is as it was.
+/// None is played while a part is in hand: only one may move the part, and the servo does.
 class Replay : public QObject {
   Q_OBJECT
 

@@ -89,9 +89,9 @@ Timeline::Timeline(QWidget* parent) : QWidget(parent) {
                         static_cast<QWidget*>(play_), static_cast<QWidget*>(forward_)})
     row->addWidget(each);
   row->addWidget(scale_, 1);
-  for (QWidget* each : {static_cast<QWidget*>(time_), static_cast<QWidget*>(speed_),
-                        static_cast<QWidget*>(loop_), static_cast<QWidget*>(path_),
-                        static_cast<QWidget*>(close_)})
+  for (QWidget* each :
+       {static_cast<QWidget*>(time_), static_cast<QWidget*>(speed_), static_cast<QWidget*>(loop_),
+        static_cast<QWidget*>(path_), static_cast<QWidget*>(close_)})
     row->addWidget(each);
   auto* words = new QHBoxLayout;
   words->addWidget(name_, 1);
@@ -177,8 +177,7 @@ void Timeline::showRecording(const QString& name, std::span<const MotionRow> row
   for (QWidget* each :
        {static_cast<QWidget*>(back_), static_cast<QWidget*>(play_), static_cast<QWidget*>(forward_),
         static_cast<QWidget*>(loop_), static_cast<QWidget*>(path_), static_cast<QWidget*>(close_),
-        static_cast<QWidget*>(scale_),
-        static_cast<QWidget*>(speed_)})
+        static_cast<QWidget*>(scale_), static_cast<QWidget*>(speed_)})
     each->setEnabled(isThere);
   name_->setText(isThere ? name : tr("No recording is open."));
   name_->setToolTip(name);

@@ -31,8 +31,7 @@ std::optional<QString> askForReason(int count, const QString& offered, QWidget* 
   accept->setText(QObject::tr("Accept"));
   const auto follow = [accept](const QString& text) {
     const QString said = text.trimmed();
-    accept->setEnabled(!said.isEmpty() &&
-                       static_cast<std::size_t>(said.toUtf8().size()) <= kMaxReasonBytes);
+    accept->setEnabled(!said.isEmpty() && static_cast<std::size_t>(said.toUtf8().size()) <= kMaxReasonBytes);
   };
   QObject::connect(reason, &QLineEdit::textChanged, accept, follow);
   QObject::connect(buttons, &QDialogButtonBox::accepted, &dialog, &QDialog::accept);

@@ -23,7 +23,8 @@
 namespace nearfit::ui {
 namespace {
 
-/// Interference of a new press fit, its step and its limits [m]: fits of machine parts are of hundredths of a millimetre.
+/// Interference of a new press fit, its step and its limits [m]: fits of machine parts are of hundredths of a
+/// millimetre.
 constexpr double kUsualInterference = 2e-5, kInterferenceStep = 5e-6, kMinInterference = 1e-9;
 constexpr int kInterferenceDecimals = 4;
 
@@ -240,7 +241,7 @@ void RulesDialog::showChosen() {
   interference_->setEnabled(rule != nullptr && shown.kind == PairRuleKind::PressFit);
   remove_->setEnabled(rule != nullptr);
   add_->setEnabled(rules_.size() < kMaxPairRules);
-  help_->setText(rule != nullptr   ? kindHelp(shown.kind)
+  help_->setText(rule != nullptr  ? kindHelp(shown.kind)
                  : rules_.empty() ? QObject::tr("There are no rules: each pair of parts is checked.")
                                   : QString());
   showFault();

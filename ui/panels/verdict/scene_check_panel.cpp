@@ -43,8 +43,8 @@ constexpr double kFirstCheckThreshold = 1e-3, kMaxCheckThreshold = 1e3, kCheckTh
 constexpr int kCheckThresholdDecimals = 4;
 constexpr int kCheckPercent = 100;
 
-/// Room around the marks that the camera goes to, as a share of their size, and their min size as a share of the scene:
-/// a tiny clash alone would fill the view without saying where it is.
+/// Room around the marks that the camera goes to, as a share of their size, and their min size as a share of
+/// the scene: a tiny clash alone would fill the view without saying where it is.
 constexpr double kRoomAround = 0.5, kLeastPlace = 0.02;
 
 /// The threshold from the settings [m]; the first one if somebody edited it to nonsense.
@@ -110,7 +110,7 @@ SceneCheckPanel::SceneCheckPanel(const Context& context, QWidget* parent)
       model_(new PairFindingsModel(this)),
       sorted_(new FindingsFilter(this)),
       table_(new QTableView(this)),
-      action_(makeAction(this, "checkScene", tr("Check &scene…"), QStringLiteral("check-scene"),
+      action_(makeAction(this, "checkScene", tr("Chec&k scene…"), QStringLiteral("check-scene"),
                          QStringLiteral("Ctrl+Shift+M"),
                          tr("Check all pairs of visible parts: which clash, touch or are near"))) {
   setUpFields();
@@ -149,12 +149,10 @@ void SceneCheckPanel::setUpFields() {
   verdicts_->setObjectName(QStringLiteral("sceneCheckVerdicts"));
   verdicts_->setAccessibleName(tr("Verdicts listed"));
   verdicts_->setToolTip(tr("List only findings with this verdict"));
-  const std::pair<QString, VerdictFilter> verdicts[] = {{tr("All verdicts"), VerdictFilter::All},
-                                                        {tr("Not allowed"), VerdictFilter::NotAllowed},
-                                                        {tr("Clashes"), VerdictFilter::Clashing},
-                                                        {tr("Touching"), VerdictFilter::Touching},
-                                                        {tr("Near"), VerdictFilter::Near},
-                                                        {tr("Clear now"), VerdictFilter::Clear}};
+  const std::pair<QString, VerdictFilter> verdicts[] = {
+      {tr("All verdicts"), VerdictFilter::All}, {tr("Not allowed"), VerdictFilter::NotAllowed},
+      {tr("Clashes"), VerdictFilter::Clashing}, {tr("Touching"), VerdictFilter::Touching},
+      {tr("Near"), VerdictFilter::Near},        {tr("Clear now"), VerdictFilter::Clear}};
   for (const auto& [name, verdict] : verdicts)
     verdicts_->addItem(name, static_cast<int>(verdict));
   connect(verdicts_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
@@ -212,7 +210,7 @@ void SceneCheckPanel::setUpButtons() {
                   tr("Choose pairs that are left out, meant to touch, or press fits"));
   accept_ = button("acceptFinding", tr("&Accept…"), tr("Say why the chosen findings may stay"));
   fixed_ = button("fixFinding", tr("Fi&xed"), tr("Mark the chosen findings as fixed"));
-  reopen_ = button("reopenFinding", tr("Re&open"), tr("Mark the chosen findings as new again"));
+  reopen_ = button("reopenFinding", tr("&Reopen"), tr("Mark the chosen findings as new again"));
   ruleForPair_ = button("ruleForPair", tr("Rule for pair…"),
                         tr("Add a rule for the two parts: leave them out, or allow what was found"));
   export_ = button("exportSceneCheck", tr("Export table…"),
@@ -258,17 +256,19 @@ void SceneCheckPanel::setUpLayout() {
   summary_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* thresholdLabel = new QLabel(tr("Thresh&old"), this);
   thresholdLabel->setBuddy(threshold_);
+  // Two rows: the panel is as wide as the view, between those at the sides.
   auto* top = new QHBoxLayout;
   top->addWidget(thresholdLabel);
   top->addWidget(threshold_);
   top->addWidget(check_);
   top->addWidget(rules_);
+  top->addWidget(summary_, 2);
   top->addWidget(progress_, 1);
   top->addWidget(cancel_);
-  top->addSpacing(12);
-  top->addWidget(text_, 1);
-  top->addWidget(verdicts_);
-  top->addWidget(states_);
+  auto* filters = new QHBoxLayout;
+  filters->addWidget(text_, 1);
+  filters->addWidget(verdicts_);
+  filters->addWidget(states_);
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(note_, 1);
   for (QPushButton* each : {accept_, fixed_, reopen_, ruleForPair_, export_})
@@ -277,7 +277,7 @@ void SceneCheckPanel::setUpLayout() {
   column->setContentsMargins(8, 6, 8, 6);
   column->setSpacing(4);
   column->addLayout(top);
-  column->addWidget(summary_);
+  column->addLayout(filters);
   column->addWidget(table_, 1);
   column->addLayout(buttons);
 }
@@ -329,8 +329,7 @@ void SceneCheckPanel::followSession() {
   // The run has told of another scene before.
   if (shown_ == nullptr && session_.scene().pairRecords() != shownRecords_) {
     const auto isSamePair = [](const PairRecord& a, const PairRecord& b) { return a.pair == b.pair; };
-    const bool areSamePairs =
-        std::ranges::equal(session_.scene().pairRecords(), shownRecords_, isSamePair);
+    const bool areSamePairs = std::ranges::equal(session_.scene().pairRecords(), shownRecords_, isSamePair);
     if (!areSamePairs) return showResult();
     shownRecords_ = session_.scene().pairRecords();
   }
@@ -367,9 +366,9 @@ QString SceneCheckPanel::noteText() const {
   if (run_.isRunning()) return {};
   if (run_.isStale()) return tr("The scene has changed since it was checked: check it again.");
   if (model_->rowCount() == 0)
-    return shown_ == nullptr ? tr("Check finds each pair of parts that clashes, touches or is near.")
-                             : tr("No two visible parts are within %1.")
-                                   .arg(formatRoundLength(shown_->check.threshold));
+    return shown_ == nullptr
+               ? tr("Check finds each pair of parts that clashes, touches or is near.")
+               : tr("No two visible parts are within %1.").arg(formatRoundLength(shown_->check.threshold));
   if (sorted_->rowCount() == 0) return tr("No finding is as the filters say.");
   const std::optional<int> row = markedRow();
   if (!row) return tr("Select a row to see the two parts; Return goes to the place.");
@@ -387,8 +386,8 @@ void SceneCheckPanel::showState() {
   const bool areKept =
       !rows.empty() && std::ranges::all_of(rows, [this](int row) { return model_->at(row).isKept; });
   const auto isAny = [&](FindingState state, bool isThat) {
-    return areKept && std::ranges::any_of(
-                          rows, [&](int row) { return (model_->at(row).state == state) == isThat; });
+    return areKept &&
+           std::ranges::any_of(rows, [&](int row) { return (model_->at(row).state == state) == isThat; });
   };
   accept_->setEnabled(areKept);
   fixed_->setEnabled(isAny(FindingState::Fixed, false));
@@ -517,8 +516,7 @@ void SceneCheckPanel::addRuleForPair() {
   if (rows.size() != 1) return;
   const ShownFinding& finding = model_->at(rows.front());
   PairRule rule;
-  rule.kind =
-      finding.verdict == PairVerdict::Touching ? PairRuleKind::Touching : PairRuleKind::LeaveOut;
+  rule.kind = finding.verdict == PairVerdict::Touching ? PairRuleKind::Touching : PairRuleKind::LeaveOut;
   rule.part = patternOf(finding.part.toStdString());
   rule.other = patternOf(finding.other.toStdString());
   askRules(rule);

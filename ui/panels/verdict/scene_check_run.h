@@ -23,8 +23,9 @@ struct CheckedScene {
   std::vector<ComparedFinding> compared;  ///< With what the scene kept of the check before.
 };
 
-/// Checks the scene in threads of low priority when asked to, keeps the findings with the scene, and watches whether the
-/// scene is still as it was checked. Parts that are dragged, played or in hand are checked where they are shown.
+/// Checks the scene in threads of low priority when asked to, keeps the findings with the scene, and watches
+/// whether the scene is still as it was checked. Parts that are dragged, played or in hand are checked where
+/// they are shown.
 class SceneCheckRun : public QObject {
   Q_OBJECT
 
