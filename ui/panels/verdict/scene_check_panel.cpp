@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QComboBox>
+#include <QEvent>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -562,6 +563,12 @@ void SceneCheckPanel::showEvent(QShowEvent* event) {
 void SceneCheckPanel::hideEvent(QHideEvent* event) {
   QWidget::hideEvent(event);
   showPairs();
+}
+
+void SceneCheckPanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  // Marks are in the colours of the theme.
+  if (event->type() == QEvent::PaletteChange && isPairShown_) showPairs();
 }
 
 }  // namespace nearfit::ui

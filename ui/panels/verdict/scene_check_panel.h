@@ -59,6 +59,7 @@ class SceneCheckPanel : public QWidget {
  protected:
   void showEvent(QShowEvent* event) override;
   void hideEvent(QHideEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   QPushButton* button(const char* name, const QString& text, const QString& help);
