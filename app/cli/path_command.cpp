@@ -167,7 +167,7 @@ void runPath(const PathOptions& options) {
         options.within ? *options.within : 2.0 * kShareOfSize * pathBodies(scene, path).radius;
     const std::vector<PathClearance> clearances = clearancesAlong(scene, path, range);
     atomicWrite(options.clearance, pathClearanceCsv(scene, path, clearances));
-    const std::optional<LeastClearance> least = leastOf(clearances, path);
+    const std::optional<LeastPathClearance> least = leastOf(clearances, path);
     summary["range"] = range;
     summary["min_clearance"] = least ? nlohmann::ordered_json(least->distance) : nlohmann::ordered_json();
     if (least) summary["min_at"] = least->time;

@@ -94,14 +94,14 @@ std::vector<PathClearance> clearancesAlong(const Scene& scene, const AssemblyPat
   return all;
 }
 
-std::optional<LeastClearance> leastOf(const std::vector<PathClearance>& clearances,
-                                      const AssemblyPath& path) {
-  std::optional<LeastClearance> least;
+std::optional<LeastPathClearance> leastOf(const std::vector<PathClearance>& clearances,
+                                          const AssemblyPath& path) {
+  std::optional<LeastPathClearance> least;
   for (const PathClearance& clearance : clearances) {
     for (std::size_t i = 0; i < clearance.distances.size(); ++i) {
       const double distance = clearance.distances[i];
       if (distance < (least ? least->distance : kBeyondRange))
-        least = LeastClearance{distance, path.poses[i].time, clearance.other};
+        least = LeastPathClearance{distance, path.poses[i].time, clearance.other};
     }
   }
   return least;

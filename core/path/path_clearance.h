@@ -18,7 +18,7 @@ struct PathClearance {
 };
 
 /// Least clearance along a path, at its poses.
-struct LeastClearance {
+struct LeastPathClearance {
   double distance = 0.0;  ///< [m]
   double time = 0.0;      ///< [s]
   PartId other{};
@@ -32,7 +32,8 @@ std::vector<PathClearance> clearancesAlong(const Scene& scene, const AssemblyPat
                                            const ProgressCallback& progress = {});
 
 /// The least of all; std::nullopt if nothing is within the range.
-std::optional<LeastClearance> leastOf(const std::vector<PathClearance>& clearances, const AssemblyPath& path);
+std::optional<LeastPathClearance> leastOf(const std::vector<PathClearance>& clearances,
+                                          const AssemblyPath& path);
 
 /// The clearances as CSV (UTF-8), one row a pose: `t_s`, then a column `NAME [m]` for each part; `inf` beyond the range.
 std::string pathClearanceCsv(const Scene& scene, const AssemblyPath& path,

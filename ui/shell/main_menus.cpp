@@ -16,8 +16,10 @@
 #include "ui/panels/parts/joint_actions.h"
 #include "ui/panels/parts/part_commands.h"
 #include "ui/panels/parts/tree_actions.h"
+#include "ui/panels/replay/path_commands.h"
 #include "ui/panels/replay/record_action.h"
 #include "ui/panels/replay/replay.h"
+#include "ui/panels/verdict/scene_check_panel.h"
 #include "ui/panels/view/feeling_view.h"
 #include "ui/panels/view/view_actions.h"
 #include "ui/tools/measure/measure_tool.h"
@@ -103,7 +105,7 @@ void MainMenus::setUpViewMenu(QMenu* panels, QMenu* units) {
   view_->addActions(view.switches());
   view_->addActions({commands_.clearanceMap.colour(), view.feeling().legend(), view.scaleBar,
                      view_->addSeparator(), commands_.measure.action(), commands_.section.action(),
-                     view_->addSeparator()});
+                     commands_.sceneCheck.action(), view_->addSeparator()});
   for (QMenu* menu : {panels, view.minimaMenu(), view.feeling().qualityMenu(), units})
     view_->addMenu(menu);
 }
@@ -128,6 +130,7 @@ void MainMenus::setUpFeelMenu() {
   QMenu* menu = window_->menuBar()->addMenu(tr("Fee&l"));
   menu->addActions({feel.start, feel.stop, commands_.hand.letGoAction(), feel.clutch, menu->addSeparator(),
                     feel.settings, menu->addSeparator(), &commands_.record, commands_.replay.openAction()});
+  menu->addMenu(&commands_.paths.menu());
 }
 
 void MainMenus::setUpToolBar() {

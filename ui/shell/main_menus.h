@@ -22,10 +22,12 @@ class FileCommands;
 class HandControl;
 class MeasureTool;
 class PartCommands;
+class PathCommands;
 class PictureTaker;
 class PlacingTools;
 class RecordAction;
 class Replay;
+class SceneCheckPanel;
 class SectionTool;
 class UndoActions;
 class ViewActions;
@@ -75,6 +77,8 @@ class MainMenus : public QObject {
     RecordAction& record;
     Replay& replay;
     ClearanceMapPanel& clearanceMap;
+    SceneCheckPanel& sceneCheck;
+    PathCommands& paths;
   };
   /// @param panels  Menu of the docks, for the view menu.
   /// @param units   Menu of units, for the view menu.

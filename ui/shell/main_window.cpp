@@ -34,9 +34,11 @@
 #include "ui/panels/plots/plot_panel.h"
 #include "ui/panels/pose/pose_panel.h"
 #include "ui/panels/pose/selected_pose.h"
+#include "ui/panels/replay/path_commands.h"
 #include "ui/panels/replay/record_action.h"
 #include "ui/panels/replay/replay.h"
 #include "ui/panels/replay/timeline.h"
+#include "ui/panels/verdict/scene_check_panel.h"
 #include "ui/panels/view/view_actions.h"
 #include "ui/shell/main_menus.h"
 #include "ui/shell/title_and_status.h"
@@ -186,7 +188,8 @@ void MainWindow::makeReviewPanels() {
   auto* timeline = new Timeline(this);
   replay_ = new Replay({session_, *hand_, *guard_, *viewport_}, *timeline, this);
   recording_ = new RecordAction(*hand_, this);
-  listenTo(*clearances, *clearanceMap_, *plots_, *replay_, *recording_);
+  paths_ = new PathCommands({session_, *replay_, *timeline}, this);
+  listenTo(*clearances, *clearanceMap_, *plots_, *replay_, *recording_, *paths_);
   constexpr Qt::DockWidgetArea kBottom = Qt::BottomDockWidgetArea;
   QDockWidget* clearanceDock =
       addDock("clearanceDock", tr("Clearances"), makeScrollPane(clearances, "clearanceScroll"), kBottom);
@@ -210,6 +213,7 @@ void MainWindow::makeReviewPanels() {
     });
   }
   makeCheckPanel(*plotsDock);
+  makeSceneCheckPanel(*plotsDock);
   connectReplay(*timelineDock);
   // Whoever turns the colours on wants the numbers too.
   connect(clearanceMap_->colour(), &QAction::triggered, mapDock, [mapDock](bool isOn) {
@@ -234,6 +238,25 @@ void MainWindow::makeCheckPanel(QDockWidget& neighbour) {
   });
 }
 
+void MainWindow::makeSceneCheckPanel(QDockWidget& neighbour) {
+  sceneCheck_ = new SceneCheckPanel({session_, *viewport_}, this);
+  listenTo(*sceneCheck_);
+  connect(units_, &UnitMenu::unitChanged, sceneCheck_, &SceneCheckPanel::refresh);
+  QDockWidget* dock = addDock("sceneCheckDock", tr("Scene check"),
+                              makeScrollPane(sceneCheck_, "sceneCheckScroll"), Qt::BottomDockWidgetArea);
+  tabifyDockWidget(&neighbour, dock);
+  dock->hide();
+  addDockButton(*dock, tr("Show or hide which pairs of parts clash, touch or are near"));
+  connect(dock->toggleViewAction(), &QAction::triggered, dock, [dock](bool isShown) {
+    if (isShown) bringToFront(*dock);
+  });
+  connect(sceneCheck_->action(), &QAction::triggered, dock, [this, dock] {
+    dock->show();
+    bringToFront(*dock);
+    sceneCheck_->begin();
+  });
+}
+
 void MainWindow::addDockButton(QDockWidget& dock, const QString& toolTip) {
   dock.toggleViewAction()->setToolTip(toolTip);
   auto* button = new QToolButton(statusBar());
@@ -253,6 +276,7 @@ void MainWindow::connectReplay(QDockWidget& timelineDock) {
     timelineDock.raise();
   });
   connect(replay_, &Replay::opened, plots_, &PlotPanel::showRecording);
+  connect(replay_, &Replay::rowsChanged, plots_, &PlotPanel::showRecording);
   connect(replay_, &Replay::timeShown, plots_, &PlotPanel::setRecordingTime);
   connect(replay_, &Replay::closed, plots_, &PlotPanel::showLive);
   connect(replay_, &Replay::rowShown, &feel_->panel(), &FeelPanel::showRecorded);
@@ -279,11 +303,11 @@ void MainWindow::makeToolsAndMenus() {
       new Exporter(session_, *selection_, *document_, [this] { return poses_->poseOfMoving(); }, this);
   auto* pictures = new PictureTaker(session_, viewport_->pictures(), this);
   makeReviewPanels();
-  const auto* menus =
-      new MainMenus(this,
-                    {*files_, *exporter, *pictures, *undo_, *parts_, *box, *viewActions_, *measure, *section,
-                     *placing_, *align, *drop, *feel_, *handControl_, *recording_, *replay_, *clearanceMap_},
-                    panelsMenu_, units_);
+  const auto* menus = new MainMenus(
+      this,
+      {*files_, *exporter, *pictures, *undo_, *parts_, *box, *viewActions_, *measure, *section, *placing_,
+       *align, *drop, *feel_, *handControl_, *recording_, *replay_, *clearanceMap_, *sceneCheck_, *paths_},
+      panelsMenu_, units_);
   shell_ = new WindowShell(this, *files_, menus->viewMenu(), menus->helpMenu());
   listenTo(*placing_, *handControl_, *selectedPose_, *align, *drop, *box, *exporter, *pictures);
   connect(units_, &UnitMenu::unitChanged, measure, &MeasureTool::refresh);

@@ -23,11 +23,13 @@ class MoveGuard;
 class NoteBar;
 class PartChecks;
 class PartCommands;
+class PathCommands;
 class PlacingTools;
 class PlotPanel;
 class PosePanel;
 class RecordAction;
 class Replay;
+class SceneCheckPanel;
 class SelectedPose;
 class Selection;
 class ShownPoses;
@@ -92,6 +94,8 @@ class MainWindow : public QMainWindow {
   void makeReviewPanels();
   /// Makes the panel of what is wrong with meshes, in a tab beside `neighbour`.
   void makeCheckPanel(QDockWidget& neighbour);
+  /// Makes the panel of the check of all pairs of parts, in a tab beside `neighbour`.
+  void makeSceneCheckPanel(QDockWidget& neighbour);
   /// Adds a button to the status bar that shows and hides a dock.
   void addDockButton(QDockWidget& dock, const QString& toolTip);
   void makeToolsAndMenus();
@@ -123,6 +127,8 @@ class MainWindow : public QMainWindow {
   ClearanceMapPanel* clearanceMap_ = nullptr;
   PlotPanel* plots_ = nullptr;
   Replay* replay_ = nullptr;
+  SceneCheckPanel* sceneCheck_ = nullptr;
+  PathCommands* paths_ = nullptr;
   RecordAction* recording_ = nullptr;
   PlacingTools* placing_ = nullptr;
   HandControl* handControl_ = nullptr;

@@ -245,8 +245,8 @@ void DesktopClearanceTest::reviewPanelsShareOnePlaceAndLeaveTheSidesTheirHeight(
   }
   QVERIFY(isInFront("plotsDock") && !isInFront("clearanceDock") && !isInFront("clearanceMapDock"));
   auto *clearances = d.widget<QDockWidget>("clearanceDock"), *plots = d.widget<QDockWidget>("plotsDock");
-  // The panel of checks too.
-  QCOMPARE(d.window().tabifiedDockWidgets(clearances).size(), 3);
+  // The panels of checks too.
+  QCOMPARE(d.window().tabifiedDockWidgets(clearances).size(), 4);
   QCOMPARE(plots->width(), d.window().centralWidget()->width());
   // Also one that was in front last.
   press("plotsDock");
@@ -292,7 +292,8 @@ void DesktopClearanceTest::aHiddenTableSearchesNothing() {
 
 void DesktopClearanceTest::eachReviewPanelIsOneClickAway() {
   DesktopDriver d;
-  for (const char* name : {"clearanceDock", "clearanceMapDock", "plotsDock", "timelineDock"}) {
+  for (const char* name :
+       {"clearanceDock", "clearanceMapDock", "plotsDock", "timelineDock", "sceneCheckDock"}) {
     const auto* dock = d.widget<QDockWidget>(name);
     auto* button = d.window().findChild<QToolButton*>(QLatin1String(name) + QStringLiteral("Button"));
     QVERIFY2(button != nullptr && button->isVisible() && !button->text().isEmpty(), name);

@@ -188,6 +188,7 @@ void DesktopLayoutTest::panelsAtTheBottomScrollInASmallWindow() {
   const struct {
     const char *dock, *pane, *content;
   } panels[] = {{"checkDock", "checkScroll", "repairPart"},
+                {"sceneCheckDock", "sceneCheckScroll", "exportSceneCheck"},
                 {"clearanceMapDock", "clearanceMapScroll", "exportClearanceMap"},
                 {"clearanceDock", "clearanceScroll", "clearanceTable"},
                 {"plotsDock", "plotsScroll", "plotView"}};

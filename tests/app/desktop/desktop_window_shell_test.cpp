@@ -586,7 +586,8 @@ void DesktopWindowShellTest::buttonsOfTheStatusBarStayWhereTheyAre() {
   d.addCubes();
   const auto places = [&d] {
     QVector<QPoint> all;
-    for (const char* name : {"clearanceDock", "clearanceMapDock", "plotsDock", "timelineDock"})
+    for (const char* name :
+         {"sceneCheckDock", "clearanceDock", "clearanceMapDock", "plotsDock", "timelineDock"})
       all << d.widget<QToolButton>(qPrintable(QLatin1String(name) + QStringLiteral("Button")))
                  ->mapTo(&d.window(), QPoint());
     return all;

@@ -37,7 +37,7 @@ TEST(PathClearance, FollowsTheFormulaWithinTheRangeAndIsInfiniteBeyond) {
     else
       EXPECT_NEAR(found[0].distances[i], wanted, 1e-12) << i;
   }
-  const std::optional<LeastClearance> least = leastOf(found, made.path);
+  const std::optional<LeastPathClearance> least = leastOf(found, made.path);
   ASSERT_TRUE(least.has_value());
   EXPECT_NEAR(least->distance, gap, 1e-12);
   EXPECT_LE(std::abs(-3.0 + 6.0 * least->time), 1.0 + 1e-9);

@@ -3,11 +3,14 @@
 #include <QAction>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <algorithm>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
+#include "core/path/path_file.h"
+#include "core/path/path_rows.h"
 #include "core/scene/moving_body.h"
 #include "core/servo/motion_reader.h"
 #include "ui/model/hand_state.h"
@@ -26,6 +29,26 @@ namespace {
 
 /// One step for each picture of a 60 Hz display.
 constexpr int kEveryMs = 16;
+/// Rows that play a path: as many pictures a second, but no more than are measured and drawn at once.
+constexpr double kPathStep = 1.0 / 60.0;
+constexpr std::size_t kMaxPathRows = 4000;
+
+/// What a file holds.
+struct OpenedMotion {
+  Recording recording;
+  std::optional<AssemblyPath> path;
+};
+
+OpenedMotion readMotionFile(const std::filesystem::path& file, const ProgressCallback& progress) {
+  OpenedMotion opened;
+  if (isJsonFile(file)) {
+    opened.path = readPathFile(file);
+    opened.recording.rows = rowsOfPath(sampledPath(*opened.path, kPathStep, kMaxPathRows));
+  } else {
+    opened.recording = readRecording(file, progress);
+  }
+  return opened;
+}
 
 QString noteOf(const MotionRow& row) {
   return QObject::tr("Force %1    Torque %2    Clearance %3    Contacts %4")
@@ -44,13 +67,13 @@ Replay::Replay(const Context& context, Timeline& timeline, QWidget* window)
       view_(context.view),
       timeline_(timeline),
       window_(window),
-      open_(makeAction(this, "openRecording", tr("&Play a recording…"), QStringLiteral("start"),
+      open_(makeAction(this, "openRecording", tr("&Play a recording or path…"), QStringLiteral("start"),
                        QStringLiteral("Shift+F8"))),
       shown_(std::make_unique<ServoSnapshot>()) {
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.setInterval(kEveryMs);
   connect(&timer_, &QTimer::timeout, this, &Replay::goOn);
-  open_->setToolTip(tr("Play a recorded motion, with a timeline to go back and forth"));
+  open_->setToolTip(tr("Play a recorded motion or a path, with a timeline to go back and forth"));
   connect(open_, &QAction::triggered, this, &Replay::askAndOpen);
   connectTimeline();
   connect(&hand_, &HandState::changed, this, &Replay::followHand);
@@ -80,42 +103,65 @@ void Replay::connectTimeline() {
 
 void Replay::askAndOpen() {
   const QString file =
-      QFileDialog::getOpenFileName(window_, tr("Open recording"), Preferences::lastFolder(),
-                                   tr("Recordings of nearfit and nearfit-cli (*.csv);;All files (*)"));
+      QFileDialog::getOpenFileName(window_, tr("Open recording or path"), Preferences::lastFolder(),
+                                   tr("Recordings and paths of nearfit and nearfit-cli (*.csv *.nfpath);;"
+                                      "All files (*)"));
   if (!file.isEmpty()) open(file);
 }
 
 void Replay::open(const QString& file) {
   if (task_.isRunning() || hand_.status().isTaken()) return;
   if (!session_.scene().movingPart()) {
-    emit failed({tr("The recording cannot be played."),
-                 tr("No part is in hand. Take in hand the part that was recorded.")});
+    emit failed(
+        {tr("The recording cannot be played."), tr("No part is in hand. Take in hand the part that moved.")});
     return;
   }
   close();
   Preferences::rememberFolderOf(file);
-  auto read = std::make_shared<Recording>();
+  auto read = std::make_shared<OpenedMotion>();
   progress_ = new ProgressDialog(tr("Reading"), tr("Reading %1").arg(QFileInfo(file).fileName()), window_);
   connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
   connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
   const auto job = [read, path = toPath(file)](const ProgressCallback& progress) {
-    *read = readRecording(path, progress);
+    *read = readMotionFile(path, progress);
   };
   task_.run(job, [this, read, file](const std::exception_ptr& error) {
     delete progress_;
     if (!error) {
-      if (read->isCut)
+      if (read->recording.isCut)
         emit noted(tr("The recording is incomplete: its last whole row is at %1 s")
-                       .arg(read->rows.back().time, 0, 'f', 3));
-      return begin(file, std::move(read->rows));
+                       .arg(read->recording.rows.back().time, 0, 'f', 3));
+      return begin(file, std::move(read->recording.rows), std::move(read->path));
     }
     if (!isCancelled(error)) emit failed(describe(tr("The recording could not be opened."), error));
   });
 }
 
-void Replay::begin(const QString& file, std::vector<MotionRow> rows) {
+QString Replay::refusalOf(const AssemblyPath& path) const {
+  const Scene& scene = session_.scene();
+  const QString lead = QString::fromStdString(path.parts.front());
+  const Part* part = scene.findByName(path.parts.front());
+  if (part == nullptr) return tr("The path moves “%1”, which is not in the scene.").arg(lead);
+  const bool isLead = scene.movingPart() == part->id;
+  const bool areInHand = std::ranges::all_of(path.parts, [&scene](const std::string& name) {
+    const Part* each = scene.findByName(name);
+    return each != nullptr && scene.isMoving(each->id);
+  });
+  const bool isMore = path.parts.size() == 1 && scene.movingParts().size() > 1;
+  if (isLead && areInHand && !isMore) return {};
+  return path.parts.size() == 1
+             ? tr("The path moves “%1”. Take it in hand to play it.").arg(lead)
+             : tr("The path moves “%1” and others as one. Take their group in hand to play it.").arg(lead);
+}
+
+void Replay::begin(const QString& file, std::vector<MotionRow> rows, std::optional<AssemblyPath> path) {
   // The moving part may be gone, or in hand, meanwhile.
   if (hand_.status().isTaken() || !session_.scene().movingPart()) return;
+  if (path) {
+    const QString refusal = refusalOf(*path);
+    if (!refusal.isEmpty()) return emit failed({tr("The path cannot be played."), refusal});
+  }
+  path_ = std::move(path);
   moving_ = *session_.scene().movingPart();
   movingGroup_ = session_.scene().movingGroup();
   playback_.emplace(std::move(rows));
@@ -140,10 +186,46 @@ void Replay::close() {
   // It draws the rows of the playback.
   timeline_.showRecording({}, {});
   playback_.reset();
+  path_.reset();
   view_.poses().show(ShownPoses::Source::Replay, {});
   view_.clearSnapshot();
   emit closed();
   guard_.setReplaying(false);
+}
+
+AssemblyPath Replay::pathBetween(double from, double to) const {
+  if (!playback_) throw UsageError("path", "no motion is open", "open a recording or a path");
+  const bool isWhole = from <= 0.0 && to >= playback_->duration();
+  if (!path_) {
+    return isWhole ? pathOfMotion(playback_->rows(), session_.scene())
+                   : pathOfMotion(playback_->rows(), session_.scene(), from, to);
+  }
+  return isWhole ? *path_ : trimmed(*path_, startTime() + from, startTime() + to);
+}
+
+void Replay::goTo(double time) {
+  setPlaying(false);
+  seek(time);
+}
+
+AssemblyPath Replay::playedPath() const {
+  return sampledPath(*path_, kPathStep, kMaxPathRows);
+}
+
+void Replay::showClearances(const std::vector<PathClearance>& clearances) {
+  if (!playback_ || !path_) return;
+  std::vector<MotionRow> rows = playback_->rows();
+  setDistances(rows, clearances);
+  MotionPlayback next(std::move(rows));
+  next.setSpeed(playback_->speed());
+  next.setLooping(playback_->isLooping());
+  next.seek(playback_->time());
+  // The timeline draws the rows of the playback.
+  timeline_.showRows({});
+  playback_.emplace(std::move(next));
+  timeline_.showRows(playback_->rows());
+  emit rowsChanged(playback_->rows());
+  show();
 }
 
 void Replay::setPlaying(bool isPlaying) {

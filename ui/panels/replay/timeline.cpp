@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QMenu>
 #include <QMouseEvent>
 #include <QSignalBlocker>
 #include <QSlider>
@@ -56,6 +57,7 @@ class Scale : public QSlider {
 }  // namespace
 
 Timeline::Timeline(QWidget* parent) : QWidget(parent) {
+  setObjectName(QStringLiteral("timelinePanel"));
   setUpButtons();
   setUpScale();
   speed_ = new QComboBox(this);
@@ -73,6 +75,11 @@ Timeline::Timeline(QWidget* parent) : QWidget(parent) {
   name_->setObjectName(QStringLiteral("timelineName"));
   time_->setObjectName(QStringLiteral("timelineTime"));
   note_->setObjectName(QStringLiteral("timelineNote"));
+  result_ = new QLabel(this);
+  result_->setObjectName(QStringLiteral("timelineResult"));
+  result_->setWordWrap(true);
+  result_->setTextFormat(Qt::PlainText);
+  result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   QFont numbers = time_->font();
   numbers.setBold(true);
   time_->setFont(numbers);
@@ -82,8 +89,9 @@ Timeline::Timeline(QWidget* parent) : QWidget(parent) {
                         static_cast<QWidget*>(play_), static_cast<QWidget*>(forward_)})
     row->addWidget(each);
   row->addWidget(scale_, 1);
-  for (QWidget* each : {static_cast<QWidget*>(time_), static_cast<QWidget*>(speed_),
-                        static_cast<QWidget*>(loop_), static_cast<QWidget*>(close_)})
+  for (QWidget* each :
+       {static_cast<QWidget*>(time_), static_cast<QWidget*>(speed_), static_cast<QWidget*>(loop_),
+        static_cast<QWidget*>(path_), static_cast<QWidget*>(close_)})
     row->addWidget(each);
   auto* words = new QHBoxLayout;
   words->addWidget(name_, 1);
@@ -95,6 +103,7 @@ Timeline::Timeline(QWidget* parent) : QWidget(parent) {
   column->addLayout(row);
   column->addWidget(track_);
   column->addLayout(words);
+  column->addWidget(result_);
   // A dock would give it a share of the window, most of it empty.
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   showRecording({}, {});
@@ -145,6 +154,8 @@ void Timeline::setUpButtons() {
   forward_ = make("timelineForward", tr("Forward one tick (Right; with Shift 100)"), "step-forward");
   loop_ = make("timelineLoop", tr("Loop"), "loop");
   loop_->setCheckable(true);
+  path_ = make("timelinePath", tr("Path: save, certify or export the motion"), "path");
+  path_->setPopupMode(QToolButton::InstantPopup);
   close_ = make("timelineClose", tr("Close the recording and put all parts back (Esc)"), "close");
   connect(open_, &QToolButton::clicked, this, &Timeline::openWanted);
   connect(back_, &QToolButton::clicked, this, [this] { emit stepped(-1); });
@@ -157,12 +168,16 @@ void Timeline::setUpButtons() {
 void Timeline::showRecording(const QString& name, std::span<const MotionRow> rows) {
   duration_ = rows.empty() ? 0.0 : rows.back().time;
   track_->showRows(rows);
+  from_ = 0.0;
+  to_ = duration_;
+  track_->setRange(from_, to_);
+  showResult({});
   track_->setVisible(!name.isEmpty());
   const bool isThere = !name.isEmpty();
   for (QWidget* each :
        {static_cast<QWidget*>(back_), static_cast<QWidget*>(play_), static_cast<QWidget*>(forward_),
-        static_cast<QWidget*>(loop_), static_cast<QWidget*>(close_), static_cast<QWidget*>(scale_),
-        static_cast<QWidget*>(speed_)})
+        static_cast<QWidget*>(loop_), static_cast<QWidget*>(path_), static_cast<QWidget*>(close_),
+        static_cast<QWidget*>(scale_), static_cast<QWidget*>(speed_)})
     each->setEnabled(isThere);
   name_->setText(isThere ? name : tr("No recording is open."));
   name_->setToolTip(name);
@@ -172,7 +187,32 @@ void Timeline::showRecording(const QString& name, std::span<const MotionRow> row
   showTime(0.0, {});
 }
 
+void Timeline::showRows(std::span<const MotionRow> rows) {
+  track_->showRows(rows);
+  track_->setTime(shownTime_);
+}
+
+void Timeline::setPathMenu(QMenu* menu) {
+  path_->setMenu(menu);
+}
+
+void Timeline::showResult(const QString& text, std::optional<double> mark) {
+  result_->setText(text);
+  result_->setVisible(!text.isEmpty());
+  track_->setMark(mark);
+}
+
+void Timeline::setRange(double from, double to) {
+  from = std::max(from, 0.0);
+  to = std::min(to, duration_);
+  if (!(from < to)) return;
+  from_ = from;
+  to_ = to;
+  track_->setRange(from_, to_);
+}
+
 void Timeline::showTime(double time, const QString& note) {
+  shownTime_ = time;
   const QSignalBlocker blocker(scale_);
   track_->setTime(time);
   // A dragged slider stays where the mouse is.
@@ -198,6 +238,10 @@ void Timeline::keyPressEvent(QKeyEvent* event) {
       return emit stepped(-rows);
     case Qt::Key_Right:
       return emit stepped(rows);
+    case Qt::Key_BracketLeft:
+      return setRange(shownTime_, to_);
+    case Qt::Key_BracketRight:
+      return setRange(from_, shownTime_);
     case Qt::Key_Escape:
       return emit closeWanted();
     default:

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <QWidget>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "core/servo/motion_recording.h"
 
 class QComboBox;
 class QLabel;
+class QMenu;
 class QSlider;
 class QToolButton;
 
@@ -28,6 +31,22 @@ class Timeline : public QWidget {
   /// @param note  What the row there says, in words.
   void showTime(double time, const QString& note);
   void showPlaying(bool isPlaying);
+  /// Draws other values of the same rows, such as distances that were found; they stay until the next call.
+  void showRows(std::span<const MotionRow> rows);
+  /// Shows commands behind a button.
+  void setPathMenu(QMenu* menu);
+  /// Says in words what was found of the motion; empty: nothing.
+  /// @param mark  Time that it is about, which the track marks [s].
+  void showResult(const QString& text, std::optional<double> mark = std::nullopt);
+
+  /// Time of the last row [s]; 0 if there is none.
+  double duration() const noexcept { return duration_; }
+  /// Time that is shown [s].
+  double time() const noexcept { return shownTime_; }
+  /// The times from which and to which commands take the motion [s]; all of it at first.
+  std::pair<double, double> range() const noexcept { return {from_, to_}; }
+  /// Sets the range, clamped to the motion; ignored unless `from` is before `to`.
+  void setRange(double from, double to);
 
  signals:
   /// Each is emitted when the user asks for what its name says. `time` is in [s], negative `rows` go back,
@@ -49,12 +68,12 @@ class Timeline : public QWidget {
   void setUpButtons();
   void setUpScale();
 
-  QToolButton *open_, *back_, *play_, *forward_, *loop_, *close_;
+  QToolButton *open_, *back_, *play_, *forward_, *loop_, *path_, *close_;
   QSlider* scale_;
   TimelineTrack* track_;
   QComboBox* speed_;
-  QLabel *name_, *time_, *note_;
-  double duration_ = 0.0;
+  QLabel *name_, *time_, *note_, *result_;
+  double duration_ = 0.0, shownTime_ = 0.0, from_ = 0.0, to_ = 0.0;  ///< [s]
 };
 
 }  // namespace nearfit::ui

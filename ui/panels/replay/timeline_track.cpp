@@ -111,6 +111,17 @@ void TimelineTrack::setTime(double time) {
   update();
 }
 
+void TimelineTrack::setRange(double from, double to) {
+  from_ = from;
+  to_ = to;
+  update();
+}
+
+void TimelineTrack::setMark(std::optional<double> time) {
+  mark_ = time;
+  update();
+}
+
 void TimelineTrack::setEnds(int left, int right) {
   if (left == left_ && right == right_) return;
   left_ = left;
@@ -159,9 +170,28 @@ void TimelineTrack::paintEvent(QPaintEvent*) {
   drawLines(painter, curves_.minima, themed(colours::kMutedText), 1.0);
   drawLines(painter, curves_.exact, themed(colours::kClearance), 1.4);
   drawLines(painter, curves_.atLeast, themed(colours::kAtLeast), 1.4);
-  const double x = plot().left() + (duration() > 0.0 ? time_ / duration() : 0.0) * plot().width();
-  painter.setPen(QPen(themed(colours::kMoving), 1.6));
-  painter.drawLine(QPointF(x, plot().top()), QPointF(x, plot().bottom()));
+  paintRange(painter);
+  const auto line = [&](double time, const QColor& colour) {
+    painter.setPen(QPen(themed(colour), 1.6));
+    painter.drawLine(QPointF(xOf(time), plot().top()), QPointF(xOf(time), plot().bottom()));
+  };
+  if (mark_) line(*mark_, colours::kOverlap);
+  line(time_, colours::kMoving);
+}
+
+double TimelineTrack::xOf(double time) const {
+  const double share = duration() > 0.0 ? std::clamp(time / duration(), 0.0, 1.0) : 0.0;
+  return plot().left() + share * plot().width();
+}
+
+void TimelineTrack::paintRange(QPainter& painter) const {
+  constexpr int kDimmed = 170;
+  QColor dim = palette().color(QPalette::Window);
+  dim.setAlpha(kDimmed);
+  const QRectF all = plot();
+  const double left = xOf(from_), right = xOf(std::min(to_, duration()));
+  painter.fillRect(QRectF(all.topLeft(), QPointF(left, all.bottom())), dim);
+  painter.fillRect(QRectF(QPointF(right, all.top()), all.bottomRight()), dim);
 }
 
 void TimelineTrack::paintAxis(QPainter& painter) const {

@@ -4,6 +4,8 @@
 #include <QRectF>
 #include <QWidget>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,6 +42,10 @@ class TimelineTrack : public QWidget {
   void showRows(std::span<const MotionRow> rows);
   /// @param time  [s]
   void setTime(double time);
+  /// Dims what is before and after these times [s].
+  void setRange(double from, double to);
+  /// Marks a time as a place to look at [s]; std::nullopt: none.
+  void setMark(std::optional<double> time);
   /// Sets where the recording begins and ends [pixels]; the axis is to the left, the names are to the right.
   void setEnds(int left, int right);
 
@@ -64,11 +70,16 @@ class TimelineTrack : public QWidget {
   void seek(int x);
   void paintAxis(QPainter& painter) const;
   void paintNames(QPainter& painter) const;
+  void paintRange(QPainter& painter) const;
+  /// Where a time is in the plot [pixels].
+  double xOf(double time) const;
   double duration() const noexcept { return rows_.empty() ? 0.0 : rows_.back().time; }
 
   std::span<const MotionRow> rows_;
   TrackCurves curves_;
   double time_ = 0.0;
+  double from_ = 0.0, to_ = std::numeric_limits<double>::infinity();  ///< [s]
+  std::optional<double> mark_;                                        ///< [s]
   int left_ = 0, right_ = 0;
 };
 

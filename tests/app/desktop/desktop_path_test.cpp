@@ -1,0 +1,241 @@
+#include <QDockWidget>
+#include <QSlider>
+#include <QToolButton>
+#include <filesystem>
+
+#include "core/path/certificate.h"
+#include "core/path/path_file.h"
+#include "core/path/path_verifier.h"
+#include "core/servo/motion_recording.h"
+#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/dialog_answers.h"
+#include "ui/model/shown_poses.h"
+#include "ui/panels/replay/timeline.h"
+#include "ui/widgets/error_box.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+RigidTransform placeAt(double x, double z) {
+  return {glm::dquat(1, 0, 0, 0), glm::dvec3(x, 0.0, z)};
+}
+
+/// The two cubes, 5 mm apart; motions of the upper one, in hand.
+struct PathFixture {
+  PathFixture() {
+    d.window().setFailureSink([this](const ui::Failure& failure) { failures << failure; });
+    d.addCubes();
+  }
+  /// A path of a part from its place to another within a second, from 3 s on.
+  std::filesystem::path writePath(const char* part, const RigidTransform& end) {
+    AssemblyPath path;
+    path.parts = {part};
+    path.centre = {0.0, 0.0, 0.035};
+    path.poses = {{3.0, placeAt(0.0, 0.0)}, {4.0, end}};
+    const auto file = d.folder.path() / "in.nfpath";
+    writePathFile(path, file);
+    return file;
+  }
+  /// A recording of two seconds in which the part goes 20 mm along x.
+  std::filesystem::path writeRecording() {
+    constexpr int kRows = 201;
+    const auto file = d.folder.path() / "felt.csv";
+    MotionWriter writer(file);
+    for (int i = 0; i < kRows; ++i) {
+      MotionRow row;
+      row.time = 1e-2 * i;
+      row.proxy = row.handle = placeAt(1e-4 * i, 0.0);
+      writer.write(row);
+    }
+    writer.finish();
+    return file;
+  }
+  /// Opens it, and stops at its start.
+  void open(const std::filesystem::path& file) {
+    DialogAnswers answers;
+    answers.expectFile(QString::fromStdString(file.string()));
+    pressShortcut(d, Qt::Key_F8, Qt::ShiftModifier);
+    QTRY_COMPARE(d.text("timelineName"), QString::fromStdString(file.filename().string()));
+    QTest::mouseClick(d.widget<QToolButton>("timelinePlay"), Qt::LeftButton);
+    auto* scale = d.widget<QSlider>("timelineScale");
+    scale->setFocus();
+    QTest::keyClick(scale, Qt::Key_Home);
+    QTRY_COMPARE(shownTime(), 0.0);
+  }
+  /// Gives a command that asks with these dialogs.
+  void choose(const char* command, DialogAnswers& answers) {
+    d.choose(command);
+    QVERIFY2(answers.faults().isEmpty(), qPrintable(answers.faults().join(' ')));
+  }
+  void certify() {
+    DialogAnswers answers;
+    answers.expectButton(QStringLiteral("certifyDialog"), QDialogButtonBox::Ok);
+    choose("certifyPath", answers);
+    QTRY_VERIFY(!d.text("timelineResult").isEmpty());
+  }
+  double shownTime() { return d.text("timelineTime").section(' ', 0, 0).toDouble(); }
+  double shownX() { return d.window().viewport().poses().poseOf(d.part("moving")).translation.x; }
+
+  DesktopDriver d;
+  QVector<ui::Failure> failures;
+};
+
+}  // namespace
+
+class DesktopPathTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void aPathIsPlayedAsARecordingIs();
+  void aPathOfAPartThatIsNotInHandIsRefused();
+  void withoutAMotionThereIsNothingToChoose();
+  void aRecordingIsSavedAsAPathOfTheTimelinesRange();
+  void theClearanceAlongAPathIsShown();
+  void aFreePathIsCertifiedAndTheCertificateIsProvenAnew();
+  void whatIsNotProvenIsShownWhereItIs();
+  void aProofEndsWithTheSceneItIsOf();
+  void posesAnimationAndSweptVolumeAreExported();
+};
+
+void DesktopPathTest::aPathIsPlayedAsARecordingIs() {
+  PathFixture f;
+  f.open(f.writePath("moving", placeAt(0.03, 0.0)));
+  QCOMPARE(f.shownX(), 0.0);
+  QTest::keyClick(f.d.widget<QSlider>("timelineScale"), Qt::Key_End);
+  QTRY_COMPARE(f.shownTime(), 1.0);
+  QVERIFY(isNear(f.shownX(), 0.03, 1e-12));
+  QTest::mouseClick(f.d.widget<QToolButton>("timelineClose"), Qt::LeftButton);
+  QCOMPARE(f.shownX(), 0.0);
+  QVERIFY(f.failures.isEmpty());
+}
+
+void DesktopPathTest::aPathOfAPartThatIsNotInHandIsRefused() {
+  PathFixture f;
+  const QString file = QString::fromStdString(f.writePath("fixed", placeAt(0.03, 0.0)).string());
+  DialogAnswers answers;
+  answers.expectFile(file);
+  pressShortcut(f.d, Qt::Key_F8, Qt::ShiftModifier);
+  QTRY_COMPARE(f.failures.size(), 1);
+  QVERIFY2(f.failures.first().details.contains(QStringLiteral("Take it in hand")),
+           qPrintable(f.failures.first().details));
+  QCOMPARE(f.d.text("timelineName"), QStringLiteral("No recording is open."));
+}
+
+void DesktopPathTest::withoutAMotionThereIsNothingToChoose() {
+  PathFixture f;
+  for (const char* name : {"savePath", "plotPathClearance", "certifyPath", "saveCertificate", "exportSwept"})
+    QVERIFY2(!f.d.action(name)->isEnabled(), name);
+  f.open(f.writeRecording());
+  QVERIFY(f.d.action("savePath")->isEnabled() && f.d.action("certifyPath")->isEnabled());
+  QVERIFY2(!f.d.action("plotPathClearance")->isEnabled(), "a recording has its distances");
+  QVERIFY(!f.d.action("saveCertificate")->isEnabled());
+}
+
+void DesktopPathTest::aRecordingIsSavedAsAPathOfTheTimelinesRange() {
+  PathFixture f;
+  f.open(f.writeRecording());
+  auto* timeline = f.d.widget<ui::Timeline>("timelinePanel");
+  QTest::keyClick(timeline, Qt::Key_Right, Qt::ShiftModifier);
+  QTRY_COMPARE(f.shownTime(), 1.0);
+  QTest::keyClick(timeline, Qt::Key_BracketLeft);
+  QCOMPARE(timeline->range(), std::pair(1.0, 2.0));
+  const auto file = f.d.folder.path() / "saved.nfpath";
+  DialogAnswers answers;
+  answers.expectButton(QStringLiteral("pathDialog"), QDialogButtonBox::Ok)
+      .expectFile(QString::fromStdString(file.string()));
+  f.choose("savePath", answers);
+  QTRY_VERIFY(std::filesystem::exists(file));
+  const AssemblyPath path = readPathFile(file);
+  QCOMPARE(path.parts, std::vector<std::string>{"moving"});
+  // It is straight: thinning leaves its ends.
+  QCOMPARE(path.poses.size(), std::size_t{2});
+  QCOMPARE(path.poses.front().time, 1.0);
+  QCOMPARE(path.poses.back().time, 2.0);
+  QVERIFY(isNear(path.poses.front().worldFromLead.translation.x, 0.01, 1e-9));
+  f.d.choose("pathWhole");
+  QCOMPARE(timeline->range(), std::pair(0.0, 2.0));
+}
+
+void DesktopPathTest::theClearanceAlongAPathIsShown() {
+  PathFixture f;
+  f.open(f.writePath("moving", placeAt(0.0, 0.0005)));
+  QVERIFY2(f.d.text("timelineNote").contains(QStringLiteral("Clearance –")),
+           qPrintable(f.d.text("timelineNote")));
+  f.d.choose("plotPathClearance");
+  const auto shows = [&](const char* length) {
+    return f.d.text("timelineNote").contains(QStringLiteral("Clearance ") + QLatin1String(length));
+  };
+  QTRY_VERIFY2(shows("5.00 mm"), qPrintable(f.d.text("timelineNote")));
+  // It goes up by half a millimetre.
+  auto* scale = f.d.widget<QSlider>("timelineScale");
+  scale->setFocus();
+  QTest::keyClick(scale, Qt::Key_End);
+  QTRY_VERIFY2(shows("5.50 mm"), qPrintable(f.d.text("timelineNote")));
+}
+
+void DesktopPathTest::aFreePathIsCertifiedAndTheCertificateIsProvenAnew() {
+  PathFixture f;
+  f.open(f.writePath("moving", placeAt(0.03, 0.0)));
+  f.certify();
+  QVERIFY2(f.d.text("timelineResult").startsWith(QStringLiteral("Certified: from 0.000 s to 1.000 s")),
+           qPrintable(f.d.text("timelineResult")));
+  keepPictures(f.d.window(), QStringLiteral("path-certified"));
+  const auto file = f.d.folder.path() / "in.nfcert";
+  DialogAnswers answers;
+  answers.expectFile(QString::fromStdString(file.string()));
+  f.choose("saveCertificate", answers);
+  QTRY_VERIFY(std::filesystem::exists(file));
+  const Certificate certificate = parseCertificate(readBytes(file), file);
+  QVERIFY2(certificate.sceneSha256.empty(), "the scene was not saved");
+  const Verification verified = verifyCertificate(certificate, f.d.session().scene(), {}, std::nullopt);
+  QVERIFY2(verified.isProven(), verified.problem.c_str());
+}
+
+void DesktopPathTest::whatIsNotProvenIsShownWhereItIs() {
+  PathFixture f;
+  // 10 mm down, where there are 5 mm of room.
+  f.open(f.writePath("moving", placeAt(0.0, -0.01)));
+  f.certify();
+  const QString result = f.d.text("timelineResult");
+  QVERIFY2(result.startsWith(QStringLiteral("Not certified: at 0.500 s “moving” and “fixed”")),
+           qPrintable(result));
+  QVERIFY(isNear(f.shownTime(), 0.5, 1e-3));
+  QVERIFY(!f.d.action("saveCertificate")->isEnabled());
+  keepPictures(f.d.window(), QStringLiteral("path-refused"));
+}
+
+void DesktopPathTest::aProofEndsWithTheSceneItIsOf() {
+  PathFixture f;
+  f.open(f.writePath("moving", placeAt(0.03, 0.0)));
+  f.certify();
+  QVERIFY(f.d.action("saveCertificate")->isEnabled());
+  f.d.session().movePart(f.d.partId("fixed"), placeAt(0.0, -0.001));
+  QVERIFY(!f.d.action("saveCertificate")->isEnabled());
+  QVERIFY(f.d.text("timelineResult").isEmpty());
+}
+
+void DesktopPathTest::posesAnimationAndSweptVolumeAreExported() {
+  PathFixture f;
+  f.open(f.writePath("moving", placeAt(0.03, 0.0)));
+  const auto write = [&f](const char* command, const char* name, const QString& dialog) {
+    const auto file = f.d.folder.path() / name;
+    DialogAnswers answers;
+    if (!dialog.isEmpty()) answers.expectButton(dialog, QDialogButtonBox::Ok);
+    answers.expectFile(QString::fromStdString(file.string()));
+    f.choose(command, answers);
+    [&] { QTRY_VERIFY(std::filesystem::exists(file)); }();
+    return readBytes(file);
+  };
+  const std::string poses = write("exportPathCsv", "poses.csv", {});
+  QVERIFY2(poses.starts_with("t_s,"), poses.c_str());
+  const std::string animation = write("exportPathGltf", "motion.glb", {});
+  QVERIFY(animation.starts_with("glTF"));
+  const std::string swept = write("exportSwept", "swept.stl", QStringLiteral("sweptDialog"));
+  QVERIFY(swept.size() > 84);
+  QVERIFY(f.failures.isEmpty());
+}
+
+NEARFIT_QT_SUITE(DesktopPathTest, runDesktopTest<DesktopPathTest>)
+#include "desktop_path_test.moc"
