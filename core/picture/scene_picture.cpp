@@ -94,7 +94,7 @@ void drawPart(const DrawnPart& part, const DrawnShapes& shapes, const PictureMap
     }
     raster.drawTriangle(corners, part.colour, part.cover);
   }
-  if (part.cover == Raster::Cover::Full) drawEdges(shape, places, raster);
+  drawEdges(shape, places, raster);
 }
 
 void drawMark(const DrawnMark& mark, const PictureMap& map, Raster& raster) {
