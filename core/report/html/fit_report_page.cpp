@@ -98,9 +98,10 @@ class ReportPage {
         report_(report),
         rows_(findingsBySeverity(report.findings)),
         html_("Fit report: " + request.title, kPageStyle) {
-    for (const Scene::PartPtr& part : request.scene.parts())
-      hasSurface(*part) ? void(geometries_.push_back(part->geometry))
-                        : void(withoutSurface_.push_back(part->name));
+    for (const Scene::PartPtr& part : request.scene.parts()) {
+      if (!hasSurface(*part)) withoutSurface_.push_back(part->name);
+      if (hasSurface(*part) && part->isVisible) geometries_.push_back(part->geometry);
+    }
   }
 
   std::string write(const ProgressCallback& progress) {
