@@ -1,6 +1,5 @@
 #include "app/cli/scene_check_run.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -8,11 +7,11 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "app/cli/arguments.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/output.h"
+#include "app/cli/progress_line.h"
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/report/scene_check_export.h"
@@ -99,28 +98,6 @@ void checkCheckOutputs(const std::filesystem::path& sceneFile, const Scene& scen
   }
 }
 
-/// Shows progress on a terminal, in one line that goes when it ends.
-class ProgressLine {
- public:
-  ProgressLine() : isShown_(::isatty(STDERR_FILENO) == 1) {}
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-  ~ProgressLine() {
-    if (percent_ >= 0) std::fputs("\r\x1B[K", stderr);
-  }
-
-  void show(double fraction) {
-    const int percent = static_cast<int>(100.0 * fraction);
-    if (!isShown_ || percent == percent_) return;
-    percent_ = percent;
-    std::fputs(fmt::format("\rchecking {} %", percent).c_str(), stderr);
-  }
-
- private:
-  bool isShown_;
-  int percent_ = -1;
-};
-
 void writeTo(const std::string& target, const std::string& text) {
   if (target == kStdout) {
     print(text);
@@ -162,7 +139,7 @@ void runSceneCheck(const std::string& sceneFile, const SceneCheckOptions& option
   std::optional<SceneCheck> check;
   Scene scene;
   {
-    ProgressLine line;
+    ProgressLine line("checking");
     const ProgressCallback reading = [](double) { return !InterruptGuard::isInterrupted(); };
     const ProgressCallback checking = [&line](double fraction) {
       line.show(fraction);

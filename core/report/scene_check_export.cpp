@@ -20,21 +20,6 @@ using CheckJson = nlohmann::ordered_json;
 
 constexpr int kSceneCheckVersion = 1;
 
-/// Findings that are there or gone, the worst first.
-std::vector<const ComparedFinding*> bySeverity(const std::vector<ComparedFinding>& compared) {
-  std::vector<const ComparedFinding*> rows;
-  for (const ComparedFinding& finding : compared) {
-    if (finding.now != nullptr || finding.change == FindingChange::Gone) rows.push_back(&finding);
-  }
-  std::ranges::stable_sort(rows, {}, [](const ComparedFinding* finding) {
-    const PairFinding* now = finding->now;
-    if (now == nullptr) return std::tuple(2, 0, 0.0, 0.0);
-    return std::tuple(now->isForbidden() ? 0 : 1, -static_cast<int>(now->verdict),
-                      -now->depth().value_or(0.0), now->distance);
-  });
-  return rows;
-}
-
 /// Length of all curves [m].
 double lengthOfCurves(const ClashMeasures& clash) {
   double length = 0.0;
@@ -177,11 +162,25 @@ std::string csvRow(const Scene& scene, const SceneCheck& check, const ComparedFi
 
 }  // namespace
 
+std::vector<const ComparedFinding*> findingsBySeverity(const std::vector<ComparedFinding>& compared) {
+  std::vector<const ComparedFinding*> rows;
+  for (const ComparedFinding& finding : compared) {
+    if (finding.now != nullptr || finding.change == FindingChange::Gone) rows.push_back(&finding);
+  }
+  std::ranges::stable_sort(rows, {}, [](const ComparedFinding* finding) {
+    const PairFinding* now = finding->now;
+    if (now == nullptr) return std::tuple(2, 0, 0.0, 0.0);
+    return std::tuple(now->isForbidden() ? 0 : 1, -static_cast<int>(now->verdict),
+                      -now->depth().value_or(0.0), now->distance);
+  });
+  return rows;
+}
+
 std::string sceneCheckTable(const Scene& scene, const SceneCheck& check,
                             const std::vector<ComparedFinding>& compared) {
   std::string text = fmt::format("{:<10}{:<11}{:<8}{:>13}{:>14}{:>14}  {}\n", "verdict", "state", "change",
                                  "distance [m]", "depth [m]", "volume [m^3]", "parts");
-  for (const ComparedFinding* row : bySeverity(compared)) {
+  for (const ComparedFinding* row : findingsBySeverity(compared)) {
     const PairFinding* now = row->now;
     const std::string rule = now != nullptr ? ruleText(check, *now) : std::string();
     const bool hasVolume = now != nullptr && now->clash && now->clash->volume;
@@ -211,7 +210,7 @@ std::string sceneCheckCsv(const Scene& scene, const SceneCheck& check,
       "part,other,verdict,allowed,rule,state,change,reason,distance [m],part_x [m],part_y [m],part_z [m],"
       "other_x [m],other_y [m],other_z [m],minima,every_minimum,depth [m],depth_exact,free_x,free_y,free_z,"
       "volume [m^3],volume_problem,curves [m],interference [m]\n";
-  for (const ComparedFinding* row : bySeverity(compared))
+  for (const ComparedFinding* row : findingsBySeverity(compared))
     text += csvRow(scene, check, *row);
   return text;
 }
@@ -226,7 +225,7 @@ std::string sceneCheckJson(const Scene& scene, const SceneCheck& check,
   json["counts"] = countsJson(check);
   json["findings"] = CheckJson::array();
   json["gone"] = CheckJson::array();
-  for (const ComparedFinding* row : bySeverity(compared)) {
+  for (const ComparedFinding* row : findingsBySeverity(compared)) {
     if (row->now != nullptr) {
       json["findings"].push_back(findingJson(scene, *row));
     } else {

@@ -8,6 +8,10 @@
 
 namespace nearfit {
 
+/// The findings that are there or gone, in the order of tables: the worst first.
+/// @param compared  Kept by pointer in the result.
+std::vector<const ComparedFinding*> findingsBySeverity(const std::vector<ComparedFinding>& compared);
+
 /// A check of a scene as a table of text, one row for each finding that is there, the worst first: those that no rule
 /// allows, then by verdict, then the deepest or nearest. A line names the columns; lengths are in metres.
 /// @param compared  Of this check (finding_states.h); findings that are gone have rows of their own.

@@ -81,8 +81,8 @@ void MainMenus::setUpFileMenu() {
   menu->addActions({files.openDemo, menu->addSeparator(), files.addParts});
   menu->addMenu(files.reloadMenu);
   menu->addActions({menu->addSeparator(), files.save, files.saveAs, commands_.exporter.exportAction(),
-                    commands_.exporter.copyAction(), commands_.pictures.save(), commands_.pictures.copy(),
-                    menu->addSeparator(), files.quit});
+                    commands_.exporter.reportAction(), commands_.exporter.copyAction(),
+                    commands_.pictures.save(), commands_.pictures.copy(), menu->addSeparator(), files.quit});
 }
 
 void MainMenus::setUpEditMenu() {

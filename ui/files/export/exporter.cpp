@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/report/placement_table.h"
 #include "ui/files/export/export_dialog.h"
+#include "ui/files/export/reporter.h"
 #include "ui/model/scene_work.h"
 #include "ui/model/selection.h"
 #include "ui/widgets/make_action.h"
@@ -47,19 +48,27 @@ Exporter::Exporter(Session& session, const Selection& selection, const SceneWork
                             "assembly, or a map of "
                             "clearance"))),
       copy_(makeAction(this, "copyPlacement", tr("&Copy placement"), QStringLiteral("copy"),
-                       QStringLiteral("Ctrl+Shift+C"))) {
+                       QStringLiteral("Ctrl+Shift+C"))),
+      reporter_(new Reporter(session_, work_, poseOfMoving_, window_, this)) {
   copy_->setToolTip(tr("Copy the selected part's placement as a 4x4 matrix by rows, in metres"));
   connect(export_, &QAction::triggered, this, [this] {
     emit sceneNeeded();
     askAndExport();
   });
   connect(copy_, &QAction::triggered, this, &Exporter::copyPlacement);
+  connect(reporter_, &Reporter::sceneNeeded, this, &Exporter::sceneNeeded);
+  connect(reporter_, &Reporter::failed, this, &Exporter::failed);
+  connect(reporter_, &Reporter::noted, this, &Exporter::noted);
   connect(&work_, &SceneWork::busyChanged, this, &Exporter::updateActions);
   changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { updateActions(); });
   updateActions();
 }
 
 Exporter::~Exporter() = default;
+
+QAction* Exporter::reportAction() const noexcept {
+  return reporter_->action();
+}
 
 void Exporter::updateActions() {
   export_->setEnabled(!work_.isBusy() && !session_.scene().parts().empty());

@@ -17,11 +17,12 @@ class QWidget;
 namespace nearfit::ui {
 
 class ProgressDialog;
+class Reporter;
 class SceneWork;
 class Selection;
 
 /// Exports the scene's placements and meshes: asks what and where to, writes it in another thread; copies a
-/// pose to the clipboard.
+/// pose to the clipboard. Also has the command for reports.
 class Exporter : public QObject {
   Q_OBJECT
 
@@ -42,6 +43,8 @@ class Exporter : public QObject {
   /// Returns the action that copies the current part's pose as a matrix (matrixText()); the moving part's if
   /// none is selected.
   QAction* copyAction() const noexcept { return copy_; }
+  /// Returns the action that writes a report of the scene.
+  QAction* reportAction() const noexcept;
 
  signals:
   /// Emitted before an export: numbers that are still being typed count now.
@@ -65,6 +68,7 @@ class Exporter : public QObject {
   const PoseOfMoving poseOfMoving_;
   QWidget* window_;
   QAction *export_, *copy_;
+  Reporter* reporter_;
   BackgroundTask task_;
   QPointer<ProgressDialog> progress_;
   Subscription changes_;

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/path/assembly_path.h"
+#include "core/path/certificate.h"
+#include "core/path/path_clearance.h"
+#include "core/path/path_verifier.h"
+#include "core/report/html/report_origin.h"
+#include "core/scene/scene.h"
+#include "core/verdict/finding_states.h"
+#include "core/verdict/scene_check.h"
+
+namespace nearfit {
+
+/// A file that a report is made from.
+struct ReportInput {
+  std::string kind;  ///< "scene", "path", "certificate".
+  std::filesystem::path file;
+  std::string sha256;  ///< Empty: the scene is not what its file holds.
+};
+
+/// What a report is made of.
+struct FitReportRequest {
+  std::string title;  ///< The scene's name.
+  Scene scene;        ///< With all parts where they are.
+  SceneCheckRequest check;
+  std::vector<ReportInput> inputs;
+  std::string sceneSha256;           ///< Of the scene's file; empty if the scene is not what that holds.
+  std::optional<AssemblyPath> path;  ///< Given as a file of its own.
+  std::optional<Certificate> certificate;
+  ReportOrigin origin;
+};
+
+/// A request for a report of a scene's visible parts by its own rules.
+/// @param file          Of the scene; empty if it has none.
+/// @param fileSha256    Empty if the scene is not what the file holds.
+/// @param threshold     As for a check [m].
+FitReportRequest fitReportRequest(const Scene& scene, const std::filesystem::path& file,
+                                  const std::string& fileSha256, double threshold);
+
+/// Adds the path of a path file. Throws FileError.
+void addPath(FitReportRequest& request, const std::filesystem::path& file);
+/// Adds a certificate, and its path where none was given. Throws FileError, also if the certificate was changed.
+void addCertificate(FitReportRequest& request, const std::filesystem::path& file);
+
+/// What a report says of a path.
+struct PathFindings {
+  AssemblyPath path;
+  double range = 0.0;  ///< Distances are looked for up to this [m].
+  std::vector<PathClearance>
+      clearances;                       ///< At the poses; empty if a refused certificate alone has the path.
+  std::optional<LeastClearance> least;  ///< No value if nothing is within the range.
+  std::optional<Verification> verification;  ///< Of the certificate, proven anew for this report.
+
+  bool isProven() const noexcept { return verification && verification->isProven(); }
+};
+
+/// All that a report says, before it is written. Not copied: findings are kept by pointer.
+struct FitReport {
+  FitReport() = default;
+  FitReport(FitReport&&) = default;
+  FitReport& operator=(FitReport&&) = default;
+  FitReport(const FitReport&) = delete;
+  FitReport& operator=(const FitReport&) = delete;
+  ~FitReport() = default;
+
+  SceneCheck check;
+  std::vector<ComparedFinding> findings;
+  std::optional<PathFindings> path;
+
+  /// True if no clash is forbidden, no pose of the path meets a part, and no certificate was refused.
+  bool isGood() const noexcept;
+};
+
+/// Checks the scene, finds clearances along the path, proves the certificate anew. On all processors. Throws UsageError
+/// as checkScene() and pathBodies(); Cancelled.
+FitReport makeFitReport(const FitReportRequest& request, const ProgressCallback& progress = {});
+
+/// The verdict in one sentence.
+std::string verdictSentence(const FitReportRequest& request, const FitReport& report);
+
+/// Limits on what a report shows, so that a browser opens it; it says what is left out.
+constexpr std::size_t kMaxPicturedFindings = 30, kMaxFindingRows = 1000, kMaxPartRows = 2000,
+                      kMaxListedCases = 200;
+
+/// The report as one HTML5 document that needs nothing else, for screen and paper. The same for the same request and
+/// report. Draws the pictures, on all processors. Throws Cancelled.
+std::string fitReportPage(const FitReportRequest& request, const FitReport& report,
+                          const ProgressCallback& progress = {});
+
+/// What came of a report.
+struct FitReportOutcome {
+  bool isGood = true;  ///< FitReport::isGood().
+  std::string sentence;
+};
+
+/// Makes a report and writes it atomically. Throws like makeFitReport(); FileError.
+FitReportOutcome writeFitReport(const FitReportRequest& request, const std::filesystem::path& file,
+                                const ProgressCallback& progress = {});
+
+}  // namespace nearfit
