@@ -54,8 +54,8 @@ struct PathFindings {
   AssemblyPath path;
   double range = 0.0;  ///< Distances are looked for up to this [m].
   std::vector<PathClearance>
-      clearances;                       ///< At the poses; empty if a refused certificate alone has the path.
-  std::optional<LeastClearance> least;  ///< No value if nothing is within the range.
+      clearances;  ///< At the poses; empty if a refused certificate alone has the path.
+  std::optional<LeastPathClearance> least;   ///< No value if nothing is within the range.
   std::optional<Verification> verification;  ///< Of the certificate, proven anew for this report.
 
   bool isProven() const noexcept { return verification && verification->isProven(); }
