@@ -19,8 +19,8 @@ constexpr const char* kFooter =
     "nearfit-cli COMMAND --help describes the options and output of a command.\n"
     "Lengths are in metres, forces in newtons, times in seconds unless said otherwise; quaternions are w, x, "
     "y, z.\n"
-    "Exit code: 0 for success, 2 for wrong usage, 3 where a verdict is no (certify, verify, clearance "
-    "--all),\n"
+    "Exit code: 0 for success, 2 for wrong usage, 3 where a verdict is no (certify, verify, suggest, "
+    "clearance --all),\n"
     "1 for any other failure, with one line on stderr.";
 
 int report(const char* message, int exitCode) {
@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
   nearfit::cli::addPathCommand(program);
   nearfit::cli::addCertifyCommand(program);
   nearfit::cli::addVerifyCommand(program);
+  nearfit::cli::addSuggestCommand(program);
   nearfit::cli::addDevicesCommand(program);
   nearfit::cli::addCacheCommand(program);
   try {

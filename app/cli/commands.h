@@ -20,6 +20,7 @@ void addClearanceMapCommand(CLI::App& program);
 void addPathCommand(CLI::App& program);
 void addCertifyCommand(CLI::App& program);
 void addVerifyCommand(CLI::App& program);
+void addSuggestCommand(CLI::App& program);
 void addCacheCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
 

@@ -171,9 +171,9 @@ AssemblyPath trimmed(const AssemblyPath& path, double from, double to) {
   return result;
 }
 
-AssemblyPath pathOfMotion(std::span<const MotionRow> rows, const Scene& scene, double from, double to) {
+AssemblyPath pathFrame(const Scene& scene) {
   const std::optional<PartId> lead = scene.movingPart();
-  if (!lead) throw UsageError("path", "nothing is in hand", "choose the part that moved");
+  if (!lead) throw UsageError("path", "nothing is in hand", "choose the part that moves");
   std::vector<PartId> moving{*lead};
   for (const PartId id : scene.movingParts()) {
     if (id != *lead && scene.get(id).isVisible && scene.get(id).geometry) moving.push_back(id);
@@ -183,6 +183,11 @@ AssemblyPath pathOfMotion(std::span<const MotionRow> rows, const Scene& scene, d
     path.parts.push_back(scene.get(id).name);
   const Aabb box = boxInLead(scene, moving, scene.get(*lead).worldFromPart.inverse());
   if (!box.isEmpty()) path.centre = box.centre();
+  return path;
+}
+
+AssemblyPath pathOfMotion(std::span<const MotionRow> rows, const Scene& scene, double from, double to) {
+  AssemblyPath path = pathFrame(scene);
   for (const MotionRow& row : rows) {
     const PathPose pose{row.time, row.proxy.normalized()};
     if (!path.poses.empty() && row.time <= path.poses.back().time)

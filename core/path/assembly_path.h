@@ -70,10 +70,13 @@ double displacementBound(const RigidTransform& a, const RigidTransform& b, const
 /// less than two poses would be left.
 AssemblyPath trimmed(const AssemblyPath& path, double from, double to);
 
+/// Parts and centre of a path of what the scene has in hand, without poses. The parts are its moving part, or those of its
+/// moving group that are visible; the centre is that of their box. Throws UsageError if nothing is in hand.
+AssemblyPath pathFrame(const Scene& scene);
+
 /// The path of what the hand moved in a recording: worldFromPart of each row (its proxy). Of rows at one time the last
 /// counts.
-/// @param scene  Its moving part, or the parts of its moving group that are visible, are those of the path. The centre
-///               is that of their box.
+/// @param scene  Parts and centre are those of pathFrame().
 /// @param from, to  As for trimmed().
 /// Throws UsageError if nothing is in hand, or as checkPath().
 AssemblyPath pathOfMotion(std::span<const MotionRow> rows, const Scene& scene, double from = 0.0,
