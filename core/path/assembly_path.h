@@ -61,6 +61,12 @@ double timeAt(const AssemblyPath& path, double place) noexcept;
 /// Place at a time [s], clamped to the path. O(log n).
 double placeAt(const AssemblyPath& path, double time) noexcept;
 
+/// Way of a point of what moves, as a polyline in the world [m]: its places at the poses, and between them as often as the
+/// turn takes to be straight to within 1/3000 of the point's distance from the centre. Points that are the same follow
+/// each other once; a point that does not move at all gives one.
+/// @param point  In the frame of the part that leads [m].
+std::vector<glm::dvec3> wayOf(const AssemblyPath& path, const glm::dvec3& point);
+
 /// Upper bound on the distance between where two poses have a point of a body [m].
 /// @param radius  Of the body about the centre [m].
 double displacementBound(const RigidTransform& a, const RigidTransform& b, const glm::dvec3& centre,

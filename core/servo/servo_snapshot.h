@@ -55,6 +55,7 @@ struct ServoSnapshot {
   RigidTransform proxy;    ///< worldFromPart: where the part is; equal to `handle` with springs.
   Wrench wrench;           ///< On the handle, about the centre of mass, as rendered: within all limits.
   Wrench unclampedWrench;  ///< The same before limits, ramps and fading.
+  glm::dvec3 guidance{0.0};  ///< Part of the unclamped force that pulls to the guidance's path [N].
   Wrench deviceWrench;     ///< `wrench` as the device is to render it, in the device's frame.
   glm::dvec3 centre{0.0};  ///< The part's centre of mass [m].
   double distance = 0.0;   ///< Min distance [m]; infinity if nothing is within the cutoff.
