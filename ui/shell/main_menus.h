@@ -22,6 +22,7 @@ class FileCommands;
 class HandControl;
 class MeasureTool;
 class PartCommands;
+class PathSuggestion;
 class PictureTaker;
 class PlacingTools;
 class RecordAction;
@@ -75,6 +76,7 @@ class MainMenus : public QObject {
     RecordAction& record;
     Replay& replay;
     ClearanceMapPanel& clearanceMap;
+    PathSuggestion& suggestion;
   };
   /// @param panels  Menu of the docks, for the view menu.
   /// @param units   Menu of units, for the view menu.

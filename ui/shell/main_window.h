@@ -23,6 +23,7 @@ class MoveGuard;
 class NoteBar;
 class PartChecks;
 class PartCommands;
+class PathSuggestion;
 class PlacingTools;
 class PlotPanel;
 class PosePanel;
@@ -42,8 +43,8 @@ struct Failure;
 /// them out, and shows their failures and notes. Each wires itself to the model and to its own actions; only
 /// what those of different folders have to do with each other is connected here.
 ///
-/// Does not own the servo: hand() takes in what it reports, and feel(), handControl() and recording() request
-/// what it is to do.
+/// Does not own the servo: hand() takes in what it reports, and feel(), handControl(), recording() and
+/// suggestion() request what it is to do.
 class MainWindow : public QMainWindow {
   Q_OBJECT
 
@@ -60,6 +61,7 @@ class MainWindow : public QMainWindow {
   PlacingTools& placing() noexcept { return *placing_; }
   PlotPanel& plots() noexcept { return *plots_; }
   RecordAction& recording() noexcept { return *recording_; }
+  PathSuggestion& suggestion() noexcept { return *suggestion_; }
   Selection& selection() noexcept { return *selection_; }
   Viewport& viewport() noexcept { return *viewport_; }
 
@@ -124,6 +126,7 @@ class MainWindow : public QMainWindow {
   PlotPanel* plots_ = nullptr;
   Replay* replay_ = nullptr;
   RecordAction* recording_ = nullptr;
+  PathSuggestion* suggestion_ = nullptr;
   PlacingTools* placing_ = nullptr;
   HandControl* handControl_ = nullptr;
 
