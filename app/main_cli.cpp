@@ -19,7 +19,7 @@ constexpr const char* kFooter =
     "nearfit-cli COMMAND --help describes the options and output of a command.\n"
     "Lengths are in metres, forces in newtons, times in seconds unless said otherwise; quaternions are w, x, "
     "y, z.\n"
-    "Exit code: 0 for success, 2 for wrong usage, 3 where a verdict is no (certify, verify, report, "
+    "Exit code: 0 for success, 2 for wrong usage, 3 where a verdict is no (certify, verify, report, suggest, "
     "clearance --all),\n"
     "1 for any other failure, with one line on stderr.";
 
@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
   nearfit::cli::addCertifyCommand(program);
   nearfit::cli::addVerifyCommand(program);
   nearfit::cli::addReportCommand(program);
+  nearfit::cli::addSuggestCommand(program);
   nearfit::cli::addDevicesCommand(program);
   nearfit::cli::addCacheCommand(program);
   try {

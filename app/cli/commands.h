@@ -21,6 +21,7 @@ void addPathCommand(CLI::App& program);
 void addCertifyCommand(CLI::App& program);
 void addVerifyCommand(CLI::App& program);
 void addReportCommand(CLI::App& program);
+void addSuggestCommand(CLI::App& program);
 void addCacheCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
 

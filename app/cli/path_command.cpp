@@ -93,24 +93,14 @@ void checkPathTargets(const PathOptions& options, const Scene& scene) {
   }
 }
 
-/// The scene with what moved in hand.
-Scene withInHand(Scene scene, const PathOptions& options) {
-  if (!options.part.empty() && !options.group.empty())
-    throw UsageError("--group", "either a part or a group moved", "leave out --part or --group");
-  if (!options.group.empty()) scene.setMovingGroup(namedGroup(scene, options.group, options.scene));
-  if (!options.part.empty()) scene.setMovingPart(chosenPart(scene, options.part));
-  if (!scene.movingPart())
-    throw UsageError("--part", "the scene has nothing in hand", "name the part or the group that moved");
-  return scene;
-}
-
 AssemblyPath pathOfInput(const PathOptions& options, const Scene& scene) {
   const double from = options.from.value_or(-std::numeric_limits<double>::infinity());
   const double to = options.to.value_or(std::numeric_limits<double>::infinity());
   if (!isJsonFile(options.input)) {
     const Recording recording = readRecording(options.input);
     if (recording.isCut) printError("warning: " + options.input + ": it ends in the middle of a row");
-    return pathOfMotion(recording.rows, withInHand(scene, options), from, to);
+    return pathOfMotion(recording.rows, withInHand(scene, options.part, options.group, options.scene), from,
+                        to);
   }
   if (!options.part.empty() || !options.group.empty())
     throw UsageError("--part", "a path file names its parts", "leave it out");

@@ -33,4 +33,15 @@ GroupId namedGroup(const Scene& scene, const std::string& name, const std::strin
                    "rename the one that is meant");
 }
 
+Scene withInHand(Scene scene, const std::string& part, const std::string& group,
+                 const std::string& sceneFile) {
+  if (!part.empty() && !group.empty())
+    throw UsageError("--group", "either a part or a group moves", "leave out --part or --group");
+  if (!group.empty()) scene.setMovingGroup(namedGroup(scene, group, sceneFile));
+  if (!part.empty()) scene.setMovingPart(chosenPart(scene, part));
+  if (!scene.movingPart())
+    throw UsageError("--part", "the scene has nothing in hand", "name the part or the group that moves");
+  return scene;
+}
+
 }  // namespace nearfit::cli

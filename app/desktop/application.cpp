@@ -14,6 +14,7 @@
 #include "ui/panels/feel/feel_control.h"
 #include "ui/panels/plots/plot_panel.h"
 #include "ui/panels/replay/record_action.h"
+#include "ui/panels/suggest/path_suggestion.h"
 #include "ui/tools/placing/hand_control.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/preferences.h"
@@ -97,6 +98,8 @@ void Application::wireRequests() {
   connect(&feel, &FeelControl::rateChanged, &servo_, &ServoController::setRate);
   connect(&window_.handControl(), &ui::HandControl::handMoved, &servo_, &ServoController::moveHand);
   connect(&window_.document(), &ui::Document::sceneNeeded, &servo_, &ServoController::commitPose);
+  connect(&window_.suggestion(), &ui::PathSuggestion::guidanceChanged, &servo_,
+          &ServoController::setGuidance);
   connect(&window_.recording(), &ui::RecordAction::recordRequested, &servo_, &ServoController::recordTo);
 }
 

@@ -3,6 +3,7 @@
 #include <QFileInfo>
 #include <exception>
 #include <utility>
+#include <vector>
 
 #include "app/desktop/hands.h"
 #include "core/scene/moving_body.h"
@@ -23,14 +24,6 @@ ServoParameters parametersFor(const Scene& scene, const HapticDevice& device) {
   ServoParameters parameters{scene.haptics(), info.limits};
   if (!info.isMapped) parameters.haptics.mapping = {};
   return parameters;
-}
-
-/// Returns the scene for the servo with the moving part elsewhere than in the session.
-std::unique_ptr<const ServoScene> servoSceneWithPartAt(const Scene& scene,
-                                                       const RigidTransform& worldFromPart) {
-  auto moved = std::make_unique<ServoScene>(*makeServoScene(scene));
-  moved->moving.worldFromPart = worldFromPart;
-  return moved;
 }
 
 }  // namespace
@@ -69,7 +62,7 @@ void ServoController::start(ui::Hand hand, const QString& device) {
       open(device);
       return;
     }
-    auto scene = makeServoScene(session_.scene());
+    std::unique_ptr<const ServoScene> scene = servoScene();
     DevicePtr made = startedHand(*scene);
     runOn(std::move(made), std::move(scene));
   } catch (...) {
@@ -78,6 +71,28 @@ void ServoController::start(ui::Hand hand, const QString& device) {
     return;
   }
   showRunning();
+}
+
+std::unique_ptr<ServoScene> ServoController::servoScene() const {
+  const Scene& scene = session_.scene();
+  auto made = std::make_unique<ServoScene>(*makeServoScene(scene));
+  if (!guidance_ || scene.get(made->moving.id).name != guidance_->parts.front()) return made;
+  std::vector<glm::dvec3> way = wayOf(*guidance_, made->centreInPart);
+  // A part that only turns about its centre of mass is not guided.
+  if (way.size() > 1)
+    made->guidance = std::make_shared<const GuidancePath>(std::move(way), GuidanceSettings{});
+  return made;
+}
+
+void ServoController::setGuidance(const std::shared_ptr<const AssemblyPath>& path) {
+  guidance_ = path;
+  if (!isRunning() || session_.scene().movingPart() != moving_ || !isReadyToFeel(session_.scene())) return;
+  try {
+    loop_.setScene(servoScene());
+  } catch (...) {
+    guidance_.reset();
+    fail(tr("The hand cannot be guided."), std::current_exception());
+  }
 }
 
 ServoController::DevicePtr ServoController::startedHand(const ServoScene& scene) const {
@@ -122,7 +137,7 @@ void ServoController::takeOpened() {
   }
   isOpened_ = false;
   try {
-    runOn(device_, makeServoScene(scene));
+    runOn(device_, servoScene());
   } catch (...) {
     halt();
     fail(tr("The part could not be taken in hand."), std::current_exception());
@@ -305,7 +320,7 @@ void ServoController::takeScene() {
   // These hands give poses of the scene, which may be where only the other mode lets the part go. A device gives
   // its own motion, for which the tick brings the handle back to the part.
   if (scene.haptics().mode != mode_ && status_.hand != ui::Hand::Device) return restartAtPart();
-  loop_.setScene(makeServoScene(scene));
+  loop_.setScene(servoScene());
   loop_.setParameters(parametersFor(scene, *device_));
   mode_ = scene.haptics().mode;
 }
@@ -315,9 +330,10 @@ void ServoController::restartAtPart() {
   loop_.pollSnapshot();
   const ServoSnapshot& last = loop_.snapshot();
   const RigidTransform part = last.tick > 0 && last.proxy.isFinite() ? last.proxy : startPose_;
-  auto servoScene = servoSceneWithPartAt(session_.scene(), part);
-  DevicePtr hand = startedHand(*servoScene);
-  runOn(std::move(hand), std::move(servoScene));
+  auto moved = servoScene();
+  moved->moving.worldFromPart = part;
+  DevicePtr hand = startedHand(*moved);
+  runOn(std::move(hand), std::move(moved));
   emit handReturned(part);
 }
 

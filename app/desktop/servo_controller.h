@@ -11,6 +11,7 @@
 #include "app/desktop/servo_report.h"
 #include "app/desktop/servo_rows.h"
 #include "core/haptics/rate_settings.h"
+#include "core/path/assembly_path.h"
 #include "core/session/session.h"
 #include "device/servo/servo_loop.h"
 #include "ui/model/servo_status.h"
@@ -63,6 +64,8 @@ class ServoController : public QObject {
   /// Gives the servo the session's scene once all its hierarchies are ready; until then the servo
   /// keeps the scene it has.
   void followSession();
+  /// Guides the hand along a path of what is in hand, from now on; null: no longer. Paths of other parts are ignored.
+  void setGuidance(const std::shared_ptr<const nearfit::AssemblyPath>& path);
   /// Sets the pose that the manual hand wants for the part; ignored for other hands.
   void moveHand(const nearfit::RigidTransform& worldFromPart);
 
@@ -83,6 +86,8 @@ class ServoController : public QObject {
  private:
   using DevicePtr = std::shared_ptr<HapticDevice>;
 
+  /// Returns the session's scene for the servo, with the guidance if that is of what is in hand.
+  std::unique_ptr<ServoScene> servoScene() const;
   /// Creates and starts the status' hand, which needs no opening.
   DevicePtr startedHand(const ServoScene& scene) const;
   void open(const QString& device);
@@ -122,10 +127,11 @@ class ServoController : public QObject {
   QTimer timer_;
   ServoMeter meter_;
   PartId moving_{};
-  std::optional<GroupId> movingGroup_;  ///< Set if `moving_` leads a group.
-  std::uint64_t sceneSerial_ = 0;       ///< Serial of the scene that owns `moving_`.
-  HapticMode mode_{};                   ///< Mode that the servo runs in.
-  RigidTransform startPose_;            ///< Where the servo started with the part (worldFromPart).
+  std::optional<GroupId> movingGroup_;            ///< Set if `moving_` leads a group.
+  std::uint64_t sceneSerial_ = 0;                 ///< Serial of the scene that owns `moving_`.
+  HapticMode mode_{};                             ///< Mode that the servo runs in.
+  std::shared_ptr<const AssemblyPath> guidance_;  ///< Null: none.
+  RigidTransform startPose_;                      ///< Where the servo started with the part (worldFromPart).
   /// True while this puts the servo's own pose into the session: followSession() must not give that back to the
   /// servo as a new scene. No order of listeners makes it unnecessary.
   bool isCommitting_ = false;

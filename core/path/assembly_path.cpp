@@ -141,6 +141,29 @@ double placeAt(const AssemblyPath& path, double time) noexcept {
   return static_cast<double>(after - path.poses.begin() - 1) + (time - from.time) / (to.time - from.time);
 }
 
+std::vector<glm::dvec3> wayOf(const AssemblyPath& path, const glm::dvec3& point) {
+  // The sagitta of an arc of this angle [rad] is a 3200th of its radius.
+  constexpr double kMaxPieceTurn = 0.05;
+  // Nearer places differ by rounding alone.
+  constexpr double kSamePoint = 1e-9;
+  std::vector<glm::dvec3> way;
+  const auto add = [&](const RigidTransform& pose) {
+    const glm::dvec3 at = pose.applyToPoint(point);
+    if (way.empty() || glm::distance(way.back(), at) > kSamePoint) way.push_back(at);
+  };
+  for (std::size_t i = 0; i < path.poses.size(); ++i) {
+    const RigidTransform& to = path.poses[i].worldFromLead;
+    if (i > 0) {
+      const RigidTransform& from = path.poses[i - 1].worldFromLead;
+      const auto pieces = static_cast<int>(std::ceil(turnBetween(from, to) / kMaxPieceTurn));
+      for (int k = 1; k < pieces; ++k)
+        add(poseBetween(from, to, path.centre, static_cast<double>(k) / pieces));
+    }
+    add(to);
+  }
+  return way;
+}
+
 double displacementBound(const RigidTransform& a, const RigidTransform& b, const glm::dvec3& centre,
                          double radius) noexcept {
   const glm::dquat turn = glm::conjugate(a.rotation) * b.rotation;
@@ -171,9 +194,9 @@ AssemblyPath trimmed(const AssemblyPath& path, double from, double to) {
   return result;
 }
 
-AssemblyPath pathOfMotion(std::span<const MotionRow> rows, const Scene& scene, double from, double to) {
+AssemblyPath pathFrame(const Scene& scene) {
   const std::optional<PartId> lead = scene.movingPart();
-  if (!lead) throw UsageError("path", "nothing is in hand", "choose the part that moved");
+  if (!lead) throw UsageError("path", "nothing is in hand", "choose the part that moves");
   std::vector<PartId> moving{*lead};
   for (const PartId id : scene.movingParts()) {
     if (id != *lead && scene.get(id).isVisible && scene.get(id).geometry) moving.push_back(id);
@@ -183,6 +206,11 @@ AssemblyPath pathOfMotion(std::span<const MotionRow> rows, const Scene& scene, d
     path.parts.push_back(scene.get(id).name);
   const Aabb box = boxInLead(scene, moving, scene.get(*lead).worldFromPart.inverse());
   if (!box.isEmpty()) path.centre = box.centre();
+  return path;
+}
+
+AssemblyPath pathOfMotion(std::span<const MotionRow> rows, const Scene& scene, double from, double to) {
+  AssemblyPath path = pathFrame(scene);
   for (const MotionRow& row : rows) {
     const PathPose pose{row.time, row.proxy.normalized()};
     if (!path.poses.empty() && row.time <= path.poses.back().time)

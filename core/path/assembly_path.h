@@ -61,6 +61,12 @@ double timeAt(const AssemblyPath& path, double place) noexcept;
 /// Place at a time [s], clamped to the path. O(log n).
 double placeAt(const AssemblyPath& path, double time) noexcept;
 
+/// Way of a point of what moves, as a polyline in the world [m]: its places at the poses, and between them as often as the
+/// turn takes to be straight to within 1/3000 of the point's distance from the centre. Points that are the same follow
+/// each other once; a point that does not move at all gives one.
+/// @param point  In the frame of the part that leads [m].
+std::vector<glm::dvec3> wayOf(const AssemblyPath& path, const glm::dvec3& point);
+
 /// Upper bound on the distance between where two poses have a point of a body [m].
 /// @param radius  Of the body about the centre [m].
 double displacementBound(const RigidTransform& a, const RigidTransform& b, const glm::dvec3& centre,
@@ -70,10 +76,13 @@ double displacementBound(const RigidTransform& a, const RigidTransform& b, const
 /// less than two poses would be left.
 AssemblyPath trimmed(const AssemblyPath& path, double from, double to);
 
+/// Parts and centre of a path of what the scene has in hand, without poses. The parts are its moving part, or those of its
+/// moving group that are visible; the centre is that of their box. Throws UsageError if nothing is in hand.
+AssemblyPath pathFrame(const Scene& scene);
+
 /// The path of what the hand moved in a recording: worldFromPart of each row (its proxy). Of rows at one time the last
 /// counts.
-/// @param scene  Its moving part, or the parts of its moving group that are visible, are those of the path. The centre
-///               is that of their box.
+/// @param scene  Parts and centre are those of pathFrame().
 /// @param from, to  As for trimmed().
 /// Throws UsageError if nothing is in hand, or as checkPath().
 AssemblyPath pathOfMotion(std::span<const MotionRow> rows, const Scene& scene, double from = 0.0,

@@ -100,8 +100,9 @@ class PairAdvance {
       : path_(path), travel_(travel), pair_(pair), separation_(separation) {}
 
   /// Proves what boxes alone prove; appends the rest, in order, to `open`.
-  void byBoxes(std::vector<ProvenStretch>& proven, std::vector<OpenPiece>& open) const {
-    byBoxes(0.0, path_.end(), kBoxLevels, proven, open);
+  /// @param levels  Times that the path is halved for that.
+  void byBoxes(unsigned levels, std::vector<ProvenStretch>& proven, std::vector<OpenPiece>& open) const {
+    byBoxes(0.0, path_.end(), levels, proven, open);
   }
 
   /// Finds if one body is in the other, or meets it, at the start.
@@ -113,15 +114,21 @@ class PairAdvance {
     return isMet ? Grazing{0.0, 0.0, true} : Grazing{};
   }
 
-  /// Proves a piece by distances. Ends at the first place that is not proven, and skips what lies behind `limit`, which
-  /// others lower.
+  /// Which place that is not proven is wanted.
+  enum class Wanted : std::uint8_t { First, Any };
+
+  /// Proves a piece by distances. Ends at the first place that is not proven, or at any, and skips what lies behind
+  /// `limit`, which others lower.
+  /// @param maxDistances  Number of distances after which what is left counts as not proven.
   Grazing byDistance(const OpenPiece& piece, LmdScratch& scratch, const std::atomic<double>& limit,
-                     std::vector<ProvenStretch>& proven) const {
+                     std::vector<ProvenStretch>& proven, Wanted wanted = Wanted::First,
+                     std::uint64_t maxDistances = kUnlimitedWork) const {
     Grazing first;
     std::vector<OpenPiece> open{piece};
     while (!open.empty()) {
       const OpenPiece at = open.back();
       open.pop_back();
+      if (maxDistances-- == 0) return {at.from, 0.0, false};
       if (at.from >= std::min(first.place, limit.load())) continue;
       const double begin = travel_.at(at.from), end = travel_.at(at.to);
       const double half = 0.5 * (end - begin), reach = std::min(half, at.reach);
@@ -131,6 +138,7 @@ class PairAdvance {
       const double room = kRoomTaken * (distance - separation_);
       if (!(room >= kRoomTaken * leastRoom())) {
         first = {anchor, std::max(distance, 0.0), false};
+        if (wanted == Wanted::Any) return first;
         // Nearer to the true first place than this nobody needs it.
         if (travel_.at(anchor) - begin > leastRoom()) open.push_back({at.from, anchor, 0.5 * reach});
         continue;
@@ -268,7 +276,7 @@ struct PathCertifier::Search {
     SharedProgress boxes(first, std::max(1.0, static_cast<double>(pairs.size())));
     parallelFor(pairs.size(), [&](std::size_t i) {
       const PairAdvance pair = advance(path, travelOf, i);
-      pair.byBoxes(work[i].proven, work[i].open);
+      pair.byBoxes(kBoxLevels, work[i].proven, work[i].open);
       work[i].start = pair.atStart();
       lowerTo(limit, work[i].start.place);
       boxes.add(1.0);
@@ -317,16 +325,19 @@ struct PathCertifier::Search {
     return proof;
   }
 
-  bool isSegmentFree(const PathSegment& segment, LmdScratch& scratch) const {
+  bool isSegmentFree(const PathSegment& segment, LmdScratch& scratch, std::uint64_t maxDistances) const {
     AssemblyPath path{frame.parts, frame.centre, {{0.0, segment.from}, {1.0, segment.to}}};
     const std::vector<PathTravel> travelOf = travels(path);
     const std::atomic<double> limit{kNowhere};
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const PairAdvance pair = advance(path, travelOf, i);
       PairWork work;
-      pair.byBoxes(work.proven, work.open);
+      // A distance tells more of a short motion than many boxes.
+      pair.byBoxes(0, work.proven, work.open);
       for (const OpenPiece& piece : work.open) {
-        if (pair.byDistance(piece, scratch, limit, work.proven).place != kNowhere) return false;
+        const Grazing grazing =
+            pair.byDistance(piece, scratch, limit, work.proven, PairAdvance::Wanted::Any, maxDistances);
+        if (grazing.place != kNowhere) return false;
       }
     }
     return true;
@@ -380,7 +391,8 @@ PathProof PathCertifier::prove(const AssemblyPath& path, const ProgressCallback&
 }
 
 std::vector<char> PathCertifier::freeSegments(std::span<const PathSegment> segments,
-                                              const ProgressCallback& progress) const {
+                                              const ProgressCallback& progress,
+                                              std::uint64_t maxDistances) const {
   // A few at a time, so that threads seldom meet.
   constexpr std::size_t kBlock = 4;
   std::vector<char> isFree(segments.size(), 0);
@@ -389,7 +401,7 @@ std::vector<char> PathCertifier::freeSegments(std::span<const PathSegment> segme
     search_->scratches.with([&](LmdScratch& scratch) {
       const std::size_t end = std::min(segments.size(), (block + 1) * kBlock);
       for (std::size_t i = block * kBlock; i < end; ++i)
-        isFree[i] = search_->isSegmentFree(segments[i], scratch) ? 1 : 0;
+        isFree[i] = search_->isSegmentFree(segments[i], scratch, maxDistances) ? 1 : 0;
     });
     done.add(static_cast<double>(kBlock));
   });

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -75,8 +77,11 @@ class PathCertifier {
 
   /// By segment: 1 if it is proven that the surfaces keep the separation on it. Does not look if one part is inside
   /// another: where that is so at one end it is so at the other. On all processors. Throws Cancelled.
-  std::vector<char> freeSegments(std::span<const PathSegment> segments,
-                                 const ProgressCallback& progress = {}) const;
+  /// @param maxDistances  Number of distances of two parts after which a segment counts as not proven. A segment takes
+  ///                      as many as its length over twice the room beside it.
+  std::vector<char> freeSegments(
+      std::span<const PathSegment> segments, const ProgressCallback& progress = {},
+      std::uint64_t maxDistances = std::numeric_limits<std::uint64_t>::max()) const;
 
   /// Radius of what moves about the centre [m].
   double radius() const noexcept;

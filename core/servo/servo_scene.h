@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/haptics/guidance.h"
 #include "core/haptics/mass_metric.h"
 #include "core/math/rigid_transform.h"
 #include "core/proximity/lmd.h"
@@ -36,6 +37,8 @@ struct ServoScene {
   MassMetric metric;  ///< Metric of the moving part.
   JointSet joints;    ///< Joints that keep the moving part; empty if they contradict each other.
   bool areJointsContradictory = false;
+  /// Path that the hand is pulled to; null for none. Not part of a Scene: whoever makes this sets it.
+  std::shared_ptr<const GuidancePath> guidance;
 
   /// Sets the moving part and everything that belongs to it except its mass.
   void setMoving(const Body& body);

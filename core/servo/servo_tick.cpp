@@ -51,6 +51,7 @@ std::uint64_t workOfMovingOn(double period, bool isLongBehind, bool isAmongThous
 
 void clearOutputs(ServoSnapshot& snapshot) noexcept {
   snapshot.wrench = snapshot.unclampedWrench = snapshot.deviceWrench = Wrench{};
+  snapshot.guidance = glm::dvec3(0.0);
   snapshot.distance = std::numeric_limits<double>::infinity();
   snapshot.queryTime = snapshot.proxyTime = snapshot.wrenchTime = 0.0;
   snapshot.work = 0;
@@ -74,6 +75,8 @@ void ServoTick::reset() noexcept {
   conditioner_ = {};
   partStep_ = {};
   held_ = {};
+  guidance_.reset();
+  pull_ = {};
   hasPose_ = false;
   shownReach_.reset();
   isToBeShown_ = false;
@@ -120,6 +123,8 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
     const bool isFelt = input.isArmed && !input.isClutched;
     if (isFelt != conditioner_.isEngaged()) isFelt ? conditioner_.engage() : conditioner_.disengage();
     Wrench wrench = settings.mode == HapticMode::Proxy ? feelProxy(tick) : feelSprings(tick);
+    wrench.force += pull_.force;
+    snapshot.guidance = pull_.force;
     const Wrench damping = passivity_.damping(limits, period);
     wrench.force += damping.force;
     wrench.torque += damping.torque;
@@ -161,6 +166,7 @@ void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcep
   mass_ = feltBody(tick.settings.weight, tick.scene.mass, tick.limits.maxForce);
   if (!hasPose_) {
     handle_ = {handle, {}};
+    pull_ = pullOfGuidance(tick);
     part_ = {isProxy ? tick.scene.moving.worldFromPart.normalized() : handle, {}};
     felt_ = part_;
     isFeltAhead_ = false;
@@ -172,11 +178,19 @@ void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcep
   } else {
     const RigidTransform before = handle_.pose;
     handle_ = smoothed(handle_, handle, tick.scene.centreInPart, tick.period);
+    pull_ = pullOfGuidance(tick);
     account(tick, before);
     // With springs the part may be anywhere, so what it overlaps is not known.
     if (isProxy && mode_ != HapticMode::Proxy) proxy_.place(part_.pose);
   }
   mode_ = tick.settings.mode;
+}
+
+GuidancePull ServoTick::pullOfGuidance(const Tick& tick) noexcept {
+  const GuidancePath* path = tick.scene.guidance.get();
+  if (path == nullptr) return {};
+  const GuidanceSettings settings = boundedGuidance(path->settings(), tick.limits, periodMeter_.heldPeriod());
+  return guidance_.follow(*path, settings, handle_.pose.applyToPoint(tick.scene.centreInPart));
 }
 
 void ServoTick::movePart(const Subject& subject, const RigidTransform& pose) noexcept {
@@ -291,7 +305,7 @@ void ServoTick::account(const Tick& tick, const RigidTransform& handleBefore) no
   double stored = PassivityController::kMaxDebt;
   if (tick.settings.mode == HapticMode::Proxy) {
     stored = storedEnergy(coupling_, tick.scene.metric, centre, handle_.pose, felt_.pose, tick.limits) +
-             kineticEnergy(mass_, tick.scene.metric, {part_.pose, partStep_});
+             kineticEnergy(mass_, tick.scene.metric, {part_.pose, partStep_}) + pull_.energy;
   }
   passivity_.observe(interval, tick.limits, stored);
 }

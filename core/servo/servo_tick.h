@@ -4,6 +4,7 @@
 
 #include "core/haptics/device_limits.h"
 #include "core/haptics/free_motion.h"
+#include "core/haptics/guidance.h"
 #include "core/haptics/handle_input.h"
 #include "core/haptics/haptic_settings.h"
 #include "core/haptics/passivity_controller.h"
@@ -32,7 +33,7 @@ struct ServoParameters {
 /// where the handle is, and the hand feels the sum of the springs. The wrench is kept passive
 /// (PassivityController) and within the device's limits (WrenchConditioner). When the mode changes, the handle
 /// returns to the part and the force ramps up from zero: the handle may be where only the other mode lets the
-/// part go.
+/// part go. In either mode the hand also feels the scene's guidance (GuidanceFollower), if there is one.
 ///
 /// A tick has two halves: feel() computes what the hand waits for, show() the rest, when the wrench is on its way.
 /// In the proxy mode the wrench does not wait for geometry: feel() lets the part follow for as much as
@@ -103,6 +104,8 @@ class ServoTick {
 
   void letGo(const RigidTransform& device, const glm::dvec3& centreInPart) noexcept;
   void takePose(const Tick& tick, const RigidTransform& handle) noexcept;
+  /// Pull toward the scene's guidance, on the handle as it is.
+  GuidancePull pullOfGuidance(const Tick& tick) noexcept;
   /// True if every body searched for minima has a valid pose.
   bool areBodiesPlaced(const Tick& tick) const noexcept;
   Wrench feelSprings(const Tick& tick) noexcept;
@@ -130,6 +133,8 @@ class ServoTick {
 
   WorkspaceMapper mapper_;
   PeriodMeter periodMeter_;
+  GuidanceFollower guidance_;
+  GuidancePull pull_;  ///< At the handle's pose.
   Proxy proxy_;
   MinimaFinder minima_;
   PassivityController passivity_;

@@ -12,6 +12,7 @@ void addSceneCommand(CLI::App& program);
 void addProgramCommand(CLI::App& program);
 void addCertifyCommand(CLI::App& program);
 void addPathCommand(CLI::App& program);
+void addSuggestCommand(CLI::App& program);
 void addFeelCommand(CLI::App& program);
 void addErrorCommand(CLI::App& program);
 void addSkipsCommand(CLI::App& program);

@@ -14,6 +14,7 @@ void addCommands(CLI::App& program, int, char**) {
   nearfit::bench::addProgramCommand(program);
   nearfit::bench::addCertifyCommand(program);
   nearfit::bench::addPathCommand(program);
+  nearfit::bench::addSuggestCommand(program);
   nearfit::bench::addFeelCommand(program);
   nearfit::bench::addErrorCommand(program);
   nearfit::bench::addSkipsCommand(program);

@@ -19,6 +19,7 @@
 #include "ui/panels/replay/path_commands.h"
 #include "ui/panels/replay/record_action.h"
 #include "ui/panels/replay/replay.h"
+#include "ui/panels/suggest/path_suggestion.h"
 #include "ui/panels/verdict/scene_check_panel.h"
 #include "ui/panels/view/feeling_view.h"
 #include "ui/panels/view/view_actions.h"
@@ -90,8 +91,8 @@ void MainMenus::setUpEditMenu() {
   QMenu* menu = window_->menuBar()->addMenu(tr("&Edit"));
   menu->addActions({commands_.undo.undo, commands_.undo.redo, menu->addSeparator(), parts.takeInHand,
                     parts.duplicate, parts.rename, parts.recolour, parts.changeUnit, parts.refine,
-                    parts.check, parts.remove, menu->addSeparator(), parts.selectAll,
-                    commands_.boxSelect.action(), parts.selectNone});
+                    parts.check, commands_.suggestion.action(), parts.remove, menu->addSeparator(),
+                    parts.selectAll, commands_.boxSelect.action(), parts.selectNone});
   parts.tree().addTo(*menu);
   menu->addMenu(&parts.joints().menu());
 }

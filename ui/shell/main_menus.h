@@ -23,6 +23,7 @@ class HandControl;
 class MeasureTool;
 class PartCommands;
 class PathCommands;
+class PathSuggestion;
 class PictureTaker;
 class PlacingTools;
 class RecordAction;
@@ -79,6 +80,7 @@ class MainMenus : public QObject {
     ClearanceMapPanel& clearanceMap;
     SceneCheckPanel& sceneCheck;
     PathCommands& paths;
+    PathSuggestion& suggestion;
   };
   /// @param panels  Menu of the docks, for the view menu.
   /// @param units   Menu of units, for the view menu.

@@ -38,6 +38,7 @@
 #include "ui/panels/replay/record_action.h"
 #include "ui/panels/replay/replay.h"
 #include "ui/panels/replay/timeline.h"
+#include "ui/panels/suggest/path_suggestion.h"
 #include "ui/panels/verdict/scene_check_panel.h"
 #include "ui/panels/view/view_actions.h"
 #include "ui/shell/main_menus.h"
@@ -131,6 +132,7 @@ MainWindow::~MainWindow() {
   feel_->closeSettings();
   // Its dock closes it while it goes, when the model is gone.
   replay_->close();
+  suggestion_->close();
 }
 
 QDockWidget* MainWindow::addDock(const char* name, const QString& title, QWidget* content,
@@ -303,10 +305,11 @@ void MainWindow::makeToolsAndMenus() {
       new Exporter(session_, *selection_, *document_, [this] { return poses_->poseOfMoving(); }, this);
   auto* pictures = new PictureTaker(session_, viewport_->pictures(), this);
   makeReviewPanels();
+  suggestion_ = new PathSuggestion({session_, *hand_, *viewport_}, this);
   const auto* menus = new MainMenus(
-      this,
-      {*files_, *exporter, *pictures, *undo_, *parts_, *box, *viewActions_, *measure, *section, *placing_,
-       *align, *drop, *feel_, *handControl_, *recording_, *replay_, *clearanceMap_, *sceneCheck_, *paths_},
+      this, {*files_,     *exporter, *pictures,      *undo_,       *parts_, *box,        *viewActions_,
+             *measure,    *section,  *placing_,      *align,       *drop,   *feel_,      *handControl_,
+             *recording_, *replay_,  *clearanceMap_, *sceneCheck_, *paths_, *suggestion_},
       panelsMenu_, units_);
   shell_ = new WindowShell(this, *files_, menus->viewMenu(), menus->helpMenu());
   listenTo(*placing_, *handControl_, *selectedPose_, *align, *drop, *box, *exporter, *pictures);
@@ -318,11 +321,17 @@ void MainWindow::makeToolsAndMenus() {
 }
 
 void MainWindow::connectCommands() {
-  listenTo(*files_, *parts_, *feel_, *undo_);
+  listenTo(*files_, *parts_, *feel_, *undo_, *suggestion_);
   feel_->loadPresets();
   connect(feel_, &FeelControl::sceneNeeded, posePanel_, &PosePanel::commit);
   // Keys that move the hand go to whatever has the focus.
   connect(feel_->start, &QAction::triggered, viewport_, [this] { viewport_->setFocus(); });
+  connect(suggestion_, &PathSuggestion::sceneNeeded, posePanel_, &PosePanel::commit);
+  connect(suggestion_, &PathSuggestion::sceneNeeded, placing_, &PlacingTools::commit);
+  // A recording and a suggested path would both draw what is in hand.
+  connect(suggestion_, &PathSuggestion::sceneNeeded, replay_, &Replay::close);
+  connect(replay_, &Replay::opened, suggestion_, &PathSuggestion::close);
+  connect(suggestion_, &PathSuggestion::feelRequested, feel_->start, &QAction::trigger);
   connect(undo_, &UndoActions::sceneNeeded, placing_, &PlacingTools::commit);
   connect(parts_, &PartCommands::servoStopRequested, feel_, &FeelControl::servoStopRequested);
   connect(parts_, &PartCommands::servoStartRequested, feel_->start, &QAction::trigger);

@@ -24,6 +24,7 @@ class NoteBar;
 class PartChecks;
 class PartCommands;
 class PathCommands;
+class PathSuggestion;
 class PlacingTools;
 class PlotPanel;
 class PosePanel;
@@ -44,8 +45,8 @@ struct Failure;
 /// them out, and shows their failures and notes. Each wires itself to the model and to its own actions; only
 /// what those of different folders have to do with each other is connected here.
 ///
-/// Does not own the servo: hand() takes in what it reports, and feel(), handControl() and recording() request
-/// what it is to do.
+/// Does not own the servo: hand() takes in what it reports, and feel(), handControl(), recording() and
+/// suggestion() request what it is to do.
 class MainWindow : public QMainWindow {
   Q_OBJECT
 
@@ -62,6 +63,7 @@ class MainWindow : public QMainWindow {
   PlacingTools& placing() noexcept { return *placing_; }
   PlotPanel& plots() noexcept { return *plots_; }
   RecordAction& recording() noexcept { return *recording_; }
+  PathSuggestion& suggestion() noexcept { return *suggestion_; }
   Selection& selection() noexcept { return *selection_; }
   Viewport& viewport() noexcept { return *viewport_; }
 
@@ -130,6 +132,7 @@ class MainWindow : public QMainWindow {
   SceneCheckPanel* sceneCheck_ = nullptr;
   PathCommands* paths_ = nullptr;
   RecordAction* recording_ = nullptr;
+  PathSuggestion* suggestion_ = nullptr;
   PlacingTools* placing_ = nullptr;
   HandControl* handControl_ = nullptr;
 

@@ -148,5 +148,24 @@ TEST(AssemblyPath, PathsThatCannotBeFollowedAreRefused) {
   EXPECT_THAT(refused([](AssemblyPath& p) { p.centre.y = std::nan(""); }), HasSubstr("centre"));
 }
 
+TEST(AssemblyPath, TheWayOfAPointFollowsItsArc) {
+  // Half a turn about z in two steps, and a pose where nothing moves.
+  AssemblyPath path;
+  path.parts = {"Bar"};
+  for (const double angle : {0.0, 0.5, 1.0, 1.0})
+    path.poses.push_back({static_cast<double>(path.poses.size()),
+                          {rotationOf({0.0, 0.0, angle * std::numbers::pi}), glm::dvec3(0.0)}});
+  const std::vector<glm::dvec3> way = wayOf(path, {2.0, 0.0, 0.0});
+  ASSERT_GT(way.size(), 60U);
+  EXPECT_NEAR(glm::distance(way.back(), glm::dvec3(-2.0, 0.0, 0.0)), 0.0, 1e-12);
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    EXPECT_NEAR(glm::length(way[i]), 2.0, 1e-12);
+    if (i == 0) continue;
+    EXPECT_GT(glm::distance(way[i - 1], way[i]), 0.0);
+    // No farther from the arc than a 3000th of its radius.
+    EXPECT_GT(glm::length(0.5 * (way[i - 1] + way[i])), 2.0 * (1.0 - 1.0 / 3000.0));
+  }
+}
+
 }  // namespace
 }  // namespace nearfit::assembly_path_test

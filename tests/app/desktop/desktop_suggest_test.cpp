@@ -1,0 +1,116 @@
+#include <QDialog>
+#include <QPushButton>
+#include <QRadioButton>
+
+#include "core/path/path_file.h"
+#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/dialog_answers.h"
+#include "ui/panels/suggest/path_suggestion.h"
+#include "ui/widgets/error_box.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+/// The application with the two cubes; the moving one, drawn above the fixed one, was put beside it.
+struct SuggestFixture {
+  SuggestFixture() {
+    d.window().setFailureSink([this](const ui::Failure& failure) { failures << failure; });
+    d.addCubes();
+    RigidTransform beside;
+    beside.translation = {0.06, 0.0, -0.03};
+    d.session().movePart(d.partId("moving"), beside);
+    QObject::connect(&d.window().viewport(), &ui::Viewport::snapshotDrawn, &d.application,
+                     [this](const ServoSnapshot& snapshot) { ghosts << snapshot.handle.translation.x; });
+  }
+  /// Answers the question by a goal's button and *Search*.
+  void suggest(const char* goal) {
+    answers.expect(QStringLiteral("suggestDialog"), [goal](QDialog& dialog) {
+      auto* choice = dialog.findChild<QRadioButton*>(QLatin1String(goal));
+      choice->setFocus();
+      QTest::keyClick(choice, Qt::Key_Space);
+      QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
+      return !dialog.isVisible();
+    });
+    d.choose("suggestPath");
+  }
+  QDialog* card() { return d.widget<QDialog>("suggestionCard"); }
+  void press(const char* button) {
+    QTest::mouseClick(card()->findChild<QPushButton*>(QLatin1String(button)), Qt::LeftButton);
+  }
+
+  DesktopDriver d;
+  QVector<ui::Failure> failures;
+  QVector<double> ghosts;  ///< Where the view has drawn the ghost, x [m].
+  DialogAnswers answers;
+};
+
+}  // namespace
+
+class DesktopSuggestTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void aPathThatIsFoundIsPlayedSavedAndFelt();
+  void closingTheCardEndsTheGhost();
+  void whatIsOutAlreadyIsTold();
+  void withoutAPartInHandThereIsNothingToSuggest();
+};
+
+void DesktopSuggestTest::aPathThatIsFoundIsPlayedSavedAndFelt() {
+  SuggestFixture f;
+  f.suggest("suggestToDrawn");
+  QTRY_VERIFY_WITH_TIMEOUT(f.card() != nullptr && f.card()->isVisible(), 60'000);
+  QVERIFY(f.d.text("suggestionText").contains(QStringLiteral("Proven to keep")));
+  // The ghost goes from where the part is to where it was drawn; the part stays.
+  QTRY_VERIFY(std::ranges::any_of(f.ghosts, [](double x) { return x > 0.001 && x < 0.059; }));
+  QTRY_VERIFY(std::ranges::any_of(f.ghosts, [](double x) { return std::abs(x) < 1e-9; }));
+  QCOMPARE(f.d.part("moving").worldFromPart.translation.x, 0.06);
+
+  const std::filesystem::path file = f.d.folder.path() / "in.nfpath";
+  f.answers.expectFile(QString::fromStdString(file.string()));
+  f.press("suggestionSave");
+  QTRY_VERIFY(std::filesystem::exists(file));
+  const AssemblyPath path = readPathFile(file);
+  QCOMPARE(path.poses.front().worldFromLead.translation.x, 0.06);
+  QCOMPARE(path.poses.back().worldFromLead.translation.x, 0.0);
+
+  f.d.chooseHand(ui::Hand::Manual);
+  f.press("suggestionFeel");
+  QTRY_VERIFY(f.d.application.servo().isRunning());
+  f.d.choose("stop");
+  QTRY_VERIFY(!f.d.application.servo().status().isTaken());
+  QVERIFY2(f.answers.faults().isEmpty(), qPrintable(f.answers.faults().join(QLatin1Char(','))));
+  QVERIFY(f.failures.isEmpty());
+}
+
+void DesktopSuggestTest::closingTheCardEndsTheGhost() {
+  SuggestFixture f;
+  f.suggest("suggestToDrawn");
+  QTRY_VERIFY_WITH_TIMEOUT(f.card() != nullptr && f.card()->isVisible(), 60'000);
+  QTRY_VERIFY(!f.ghosts.isEmpty());
+  f.card()->reject();
+  QTRY_VERIFY(f.card() == nullptr);
+  const int count = f.ghosts.size();
+  QTest::qWait(200);
+  QCOMPARE(f.ghosts.size(), count);
+}
+
+void DesktopSuggestTest::whatIsOutAlreadyIsTold() {
+  SuggestFixture f;
+  f.suggest("suggestOut");
+  QTRY_COMPARE(f.failures.size(), 1);
+  QVERIFY(f.failures[0].details.contains(QStringLiteral("out already")));
+  QVERIFY(f.card() == nullptr);
+}
+
+void DesktopSuggestTest::withoutAPartInHandThereIsNothingToSuggest() {
+  SuggestFixture f;
+  QVERIFY(f.d.action("suggestPath")->isEnabled());
+  f.d.session().setMovingPart(std::nullopt);
+  QVERIFY(!f.d.action("suggestPath")->isEnabled());
+}
+
+NEARFIT_QT_SUITE(DesktopSuggestTest, runDesktopTest<DesktopSuggestTest>)
+#include "desktop_suggest_test.moc"

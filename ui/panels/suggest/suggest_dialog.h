@@ -1,0 +1,26 @@
+#pragma once
+
+#include <QString>
+#include <cstdint>
+#include <optional>
+
+class QWidget;
+
+namespace nearfit::ui {
+
+/// What the user asks for when a path is to be suggested.
+struct SuggestionRequest {
+  enum class Goal : std::uint8_t { ToDrawn, Out };
+  Goal goal = Goal::Out;
+  double seconds = 30.0;
+  double separation = 0.0;  ///< [m]; > 0.
+  bool mayTurn = true;
+};
+
+/// Asks for goal, time and separation. The goal, the time and the turns asked for last are offered again.
+/// @param name        Of what is in hand.
+/// @param separation  Offered first [m].
+/// @return std::nullopt if the user cancels.
+std::optional<SuggestionRequest> askForSuggestion(const QString& name, double separation, QWidget* parent);
+
+}  // namespace nearfit::ui

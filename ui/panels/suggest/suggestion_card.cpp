@@ -1,0 +1,49 @@
+#include "ui/panels/suggest/suggestion_card.h"
+
+#include <QDialogButtonBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+#include "ui/widgets/font_scale.h"
+#include "ui/widgets/names.h"
+
+namespace nearfit::ui {
+
+SuggestionCard::SuggestionCard(const QString& text, bool isFound, QWidget* parent) : QDialog(parent) {
+  setObjectName(QStringLiteral("suggestionCard"));
+  setWindowTitle(isFound ? tr("Suggested path") : tr("No path found"));
+  setAttribute(Qt::WA_DeleteOnClose);
+  auto* label = new QLabel(breakable(text), this);
+  label->setObjectName(QStringLiteral("suggestionText"));
+  label->setTextFormat(Qt::PlainText);
+  label->setWordWrap(true);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
+  if (isFound) {
+    auto* save = buttons->addButton(tr("&Save path…"), QDialogButtonBox::ActionRole);
+    save->setObjectName(QStringLiteral("suggestionSave"));
+    save->setToolTip(tr("Save the path to a file, which nearfit-cli certify proves anew"));
+    save->setAutoDefault(false);
+    connect(save, &QPushButton::clicked, this, &SuggestionCard::saveWanted);
+    feel_ = buttons->addButton(tr("&Feel it"), QDialogButtonBox::ActionRole);
+    feel_->setObjectName(QStringLiteral("suggestionFeel"));
+    feel_->setCheckable(true);
+    feel_->setAutoDefault(false);
+    feel_->setToolTip(tr("Draw the hand weakly toward the path; it can leave at any time"));
+    connect(feel_, &QPushButton::toggled, this, &SuggestionCard::guidanceWanted);
+  }
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(label);
+  layout->addWidget(buttons);
+  setMinimumWidth(forFont(*this, 380));
+}
+
+void SuggestionCard::showGuided(bool isOn) {
+  if (feel_ == nullptr) return;
+  const QSignalBlocker blocker(feel_);
+  feel_->setChecked(isOn);
+}
+
+}  // namespace nearfit::ui
