@@ -117,8 +117,8 @@ void ExactSources::read(const std::function<void(double fraction)>& progress) {
     opened.job.bytes = {};
     progress(static_cast<double>(i + 1) / count);
   }
-  for (std::size_t i = 0; i < found_.size(); ++i)
-    if (found_[i] && found_[i]->shape.IsNull()) found_[i].reset();
+  for (auto& found : found_)
+    if (found && found->shape.IsNull()) found.reset();
 }
 
 void ExactSources::readOne(Opened& opened) {
