@@ -99,7 +99,8 @@ AssemblyPath pathOfInput(const PathOptions& options, const Scene& scene) {
   if (!isJsonFile(options.input)) {
     const Recording recording = readRecording(options.input);
     if (recording.isCut) printError("warning: " + options.input + ": it ends in the middle of a row");
-    return pathOfMotion(recording.rows, withInHand(scene, options.part, options.group, options.scene), from, to);
+    return pathOfMotion(recording.rows, withInHand(scene, options.part, options.group, options.scene), from,
+                        to);
   }
   if (!options.part.empty() || !options.group.empty())
     throw UsageError("--part", "a path file names its parts", "leave it out");

@@ -33,7 +33,8 @@ GroupId namedGroup(const Scene& scene, const std::string& name, const std::strin
                    "rename the one that is meant");
 }
 
-Scene withInHand(Scene scene, const std::string& part, const std::string& group, const std::string& sceneFile) {
+Scene withInHand(Scene scene, const std::string& part, const std::string& group,
+                 const std::string& sceneFile) {
   if (!part.empty() && !group.empty())
     throw UsageError("--group", "either a part or a group moves", "leave out --part or --group");
   if (!group.empty()) scene.setMovingGroup(namedGroup(scene, group, sceneFile));

@@ -14,6 +14,7 @@ GroupId namedGroup(const Scene& scene, const std::string& name, const std::strin
 
 /// The scene with the part or group given by --part or --group in hand; without either, as it is. Throws UsageError as the
 /// others, if both are given, or if nothing is in hand then.
-Scene withInHand(Scene scene, const std::string& part, const std::string& group, const std::string& sceneFile);
+Scene withInHand(Scene scene, const std::string& part, const std::string& group,
+                 const std::string& sceneFile);
 
 }  // namespace nearfit::cli

@@ -33,11 +33,14 @@ struct SuggestOptions {
 };
 
 constexpr const char* kSuggestFooter =
-    "Exactly one of --to-drawn, --out and --to. --to-drawn: where the part's CAD document places it, or where\n"
+    "Exactly one of --to-drawn, --out and --to. --to-drawn: where the part's CAD document places it, or "
+    "where\n"
     "the coordinates of its mesh file are; of a group, the part that leads it. --out: until the box of what\n"
     "moves is clear of the box of all others. Joints do not hold what moves.\n"
-    "The path keeps the separation everywhere between its poses, which is proven; certify makes a certificate\n"
-    "of that. Exit code 3 if none was found, which does not mean that there is none; what was tried is printed.\n"
+    "The path keeps the separation everywhere between its poses, which is proven; certify makes a "
+    "certificate\n"
+    "of that. Exit code 3 if none was found, which does not mean that there is none; what was tried is "
+    "printed.\n"
     "The same seed gives the same path if --motions ends the search and not its time.\n"
     "Example: nearfit-cli suggest fit.nearfit --part Peg --out --seconds 60 -o out.nfpath";
 

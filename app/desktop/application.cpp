@@ -98,7 +98,8 @@ void Application::wireRequests() {
   connect(&feel, &FeelControl::rateChanged, &servo_, &ServoController::setRate);
   connect(&window_.handControl(), &ui::HandControl::handMoved, &servo_, &ServoController::moveHand);
   connect(&window_.document(), &ui::Document::sceneNeeded, &servo_, &ServoController::commitPose);
-  connect(&window_.suggestion(), &ui::PathSuggestion::guidanceChanged, &servo_, &ServoController::setGuidance);
+  connect(&window_.suggestion(), &ui::PathSuggestion::guidanceChanged, &servo_,
+          &ServoController::setGuidance);
   connect(&window_.recording(), &ui::RecordAction::recordRequested, &servo_, &ServoController::recordTo);
 }
 

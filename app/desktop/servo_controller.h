@@ -127,11 +127,11 @@ class ServoController : public QObject {
   QTimer timer_;
   ServoMeter meter_;
   PartId moving_{};
-  std::optional<GroupId> movingGroup_;  ///< Set if `moving_` leads a group.
-  std::uint64_t sceneSerial_ = 0;       ///< Serial of the scene that owns `moving_`.
-  HapticMode mode_{};                   ///< Mode that the servo runs in.
+  std::optional<GroupId> movingGroup_;            ///< Set if `moving_` leads a group.
+  std::uint64_t sceneSerial_ = 0;                 ///< Serial of the scene that owns `moving_`.
+  HapticMode mode_{};                             ///< Mode that the servo runs in.
   std::shared_ptr<const AssemblyPath> guidance_;  ///< Null: none.
-  RigidTransform startPose_;            ///< Where the servo started with the part (worldFromPart).
+  RigidTransform startPose_;                      ///< Where the servo started with the part (worldFromPart).
   /// True while this puts the servo's own pose into the session: followSession() must not give that back to the
   /// servo as a new scene. No order of listeners makes it unnecessary.
   bool isCommitting_ = false;

@@ -113,7 +113,8 @@ GuidancePull GuidanceFollower::follow(const GuidancePath& path, const GuidanceSe
     nearest = segment;
     to = there;
   };
-  const std::size_t first = nearest - std::min(nearest, kWindow), end = std::min(count, nearest + kWindow + 1);
+  const std::size_t first = nearest - std::min(nearest, kWindow),
+                    end = std::min(count, nearest + kWindow + 1);
   for (std::size_t i = first; i < end; ++i)
     look(i);
   // Beyond the reach nothing pulls, so that another stretch may be gone over to.

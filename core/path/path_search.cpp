@@ -222,8 +222,7 @@ class PathSearch {
     if (isThere)
       throw UsageError("goal", end_ ? "what moves is there already" : "what moves is out already",
                        "move it, or choose another goal");
-    if (end_ && !options_.mayTurn &&
-        std::abs(glm::dot(start_.rotation, end_->rotation)) < 1.0 - kThere)
+    if (end_ && !options_.mayTurn && std::abs(glm::dot(start_.rotation, end_->rotation)) < 1.0 - kThere)
       throw UsageError("goal", "it is turned against the start, but the search may not turn",
                        "allow turns, or choose another goal");
   }
@@ -520,20 +519,20 @@ std::string describePathSearch(const Scene& scene, const PathGoal& goal, const P
                                const std::function<std::string(double)>& length) {
   switch (result.end) {
     case PathSearchEnd::Found:
-      return fmt::format(
-          "Found in {:.1f} s by {}: {} poses. Proven to keep {} from all other visible parts.", result.seconds,
-          describeMethod(result.method), result.path.poses.size(), length(result.separation));
+      return fmt::format("Found in {:.1f} s by {}: {} poses. Proven to keep {} from all other visible parts.",
+                         result.seconds, describeMethod(result.method), result.path.poses.size(),
+                         length(result.separation));
     case PathSearchEnd::StartNotFree:
     case PathSearchEnd::GoalNotFree: {
       const bool isStart = result.end == PathSearchEnd::StartNotFree;
       const UnprovenPlace& at = *result.blocked;
       const std::string &part = scene.get(at.part).name, &other = scene.get(at.other).name;
-      const std::string problem =
-          at.isInside ? fmt::format("\"{}\" meets \"{}\"", part, other)
-                      : fmt::format("\"{}\" is not proven farther than {} from \"{}\"", part,
-                                    length(std::max(at.distance, 0.0)), other);
-      return fmt::format("No path: at the {}, {}; the separation to keep is {}. {}", isStart ? "start" : "goal",
-                         problem, length(result.separation),
+      const std::string problem = at.isInside
+                                      ? fmt::format("\"{}\" meets \"{}\"", part, other)
+                                      : fmt::format("\"{}\" is not proven farther than {} from \"{}\"", part,
+                                                    length(std::max(at.distance, 0.0)), other);
+      return fmt::format("No path: at the {}, {}; the separation to keep is {}. {}",
+                         isStart ? "start" : "goal", problem, length(result.separation),
                          isStart ? "Move it apart, or ask for a smaller separation."
                                  : "Choose another goal, or ask for a smaller separation.");
     }

@@ -43,8 +43,8 @@ enum class PathSearchEnd : std::uint8_t {
 
 /// Ways of finding a path, in the order in which they are tried.
 enum class PathSearchMethod : std::uint8_t {
-  Straight,    ///< In one straight motion.
-  Sliding,     ///< Drawn one way, sliding along what is in the way.
+  Straight,       ///< In one straight motion.
+  Sliding,        ///< Drawn one way, sliding along what is in the way.
   SlidingTrees,   ///< planBySliding()
   ConnectedTrees  ///< planByConnecting(): RRT-Connect.
 };
@@ -56,11 +56,11 @@ struct PathSearchResult {
   AssemblyPath path;        ///< If it was found: from the pose in the scene to the goal, proven free.
   PathProof proof;          ///< Of the path.
   PathSearchMethod method = PathSearchMethod::Straight;  ///< That found it.
-  std::optional<UnprovenPlace> blocked;  ///< If start or goal is not free: by what.
+  std::optional<UnprovenPlace> blocked;                  ///< If start or goal is not free: by what.
 
-  std::size_t directions = 0;   ///< In which it was drawn.
-  std::size_t poses = 0;        ///< That the trees reached.
-  std::uint64_t motions = 0;    ///< That the trees tried.
+  std::size_t directions = 0;  ///< In which it was drawn.
+  std::size_t poses = 0;       ///< That the trees reached.
+  std::uint64_t motions = 0;   ///< That the trees tried.
   /// How far it came: the greatest shift of the centre from the start; toward a pose, the least displacement that was
   /// left of any point [m].
   double farthest = 0.0, nearest = std::numeric_limits<double>::infinity();

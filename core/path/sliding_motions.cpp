@@ -81,8 +81,7 @@ std::vector<glm::dvec3> SlidingMotions::normalsAt(const RigidTransform& pose, do
 
 bool SlidingMotions::advance(const RigidTransform& from, const RigidTransform& toward, bool isTowed,
                              std::vector<RigidTransform>& way) {
-  const double keep =
-      std::max(kKeeps[advances_++ % kKeeps.size()] * radius_, kLeastKeep * space_.separation);
+  const double keep = std::max(kKeeps[advances_++ % kKeeps.size()] * radius_, kLeastKeep * space_.separation);
   const double longest = std::max(kStride * radius_, 2.0 * keep);
   RigidTransform pose = from;
   double stride = longest;
@@ -112,8 +111,10 @@ bool SlidingMotions::advance(const RigidTransform& from, const RigidTransform& t
     if (!take(pose, taken)) return false;
     way.push_back(pose);
     const double gyration = kGyration * radius_;
-    const double gain = glm::dot(taken.shift, goal.shift) + gyration * gyration * glm::dot(taken.turn, goal.turn);
-    const double whole = glm::dot(goal.shift, goal.shift) + gyration * gyration * glm::dot(goal.turn, goal.turn);
+    const double gain =
+        glm::dot(taken.shift, goal.shift) + gyration * gyration * glm::dot(taken.turn, goal.turn);
+    const double whole =
+        glm::dot(goal.shift, goal.shift) + gyration * gyration * glm::dot(goal.turn, goal.turn);
     idle = gain < kLeastGain * whole ? idle + 1 : 0;
     if (idle >= kPatience) return false;
     // A step that had to be halved warns of the next one.
@@ -204,7 +205,8 @@ void SlidingMotions::lookAt(const PathPart& moving, const Part& other, const Rig
   const NormalConeTree &scene = its.tree(), &part = mine.tree();
   const double deviation = scene.deviation() + part.deviation();
   const RigidTransform world = centrePose(worldFromLead, space_.centre);
-  const LmdResult found = findNearestLmds(scene, part, pose, within + deviation, scratch_, lmds_, kMaxNodePairs);
+  const LmdResult found =
+      findNearestLmds(scene, part, pose, within + deviation, scratch_, lmds_, kMaxNodePairs);
   for (std::size_t i = 0; i < found.count; ++i)
     addNear(lmds_[i], other, world, deviation);
   if (found.count > 0 && its.isSolid() && mine.isSolid()) return;
@@ -220,7 +222,8 @@ void SlidingMotions::lookAt(const PathPart& moving, const Part& other, const Rig
   addNear(lmd, other, world, deviation);
 }
 
-void SlidingMotions::addNear(const Lmd& lmd, const Part& other, const RigidTransform& pose, double deviation) {
+void SlidingMotions::addNear(const Lmd& lmd, const Part& other, const RigidTransform& pose,
+                             double deviation) {
   const glm::dvec3 direction = other.worldFromPart.applyToVector(lmd.direction);
   const glm::dvec3 middle = other.worldFromPart.applyToPoint(lmd.partPoint) - pose.translation;
   const double distance = std::max(lmd.distance - deviation, 0.0);

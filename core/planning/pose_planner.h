@@ -15,7 +15,8 @@ namespace nearfit {
 /// from one to the next the centre moves straight, while the body turns about it at a constant rate.
 struct PoseBounds {
   glm::dvec3 lower{0.0}, upper{0.0};  ///< Of the centre [m]; lower < upper.
-  double radius = 1.0;   ///< Of the body about its centre [m]; > 0. A turn counts as that many metres a radian.
+  double radius =
+      1.0;  ///< Of the body about its centre [m]; > 0. A turn counts as that many metres a radian.
   bool mayTurn = true;
 };
 
@@ -44,9 +45,10 @@ using PoseWay = std::vector<RigidTransform>;
 struct PoseQuery {
   PoseBounds bounds;
   RigidTransform start;
-  std::vector<RigidTransform> goals;  ///< Free; may be empty for planBySliding() if PoseMotions::reach() knows goals.
-  std::vector<PoseWay> startWays;     ///< Known already; each begins at the start.
-  std::vector<PoseWay> goalWays;      ///< Known already; each begins at one of the goals.
+  std::vector<RigidTransform>
+      goals;  ///< Free; may be empty for planBySliding() if PoseMotions::reach() knows goals.
+  std::vector<PoseWay> startWays;      ///< Known already; each begins at the start.
+  std::vector<PoseWay> goalWays;       ///< Known already; each begins at one of the goals.
   std::vector<glm::dvec3> directions;  ///< Along which the body probably moves freely; unit, at most 32.
   std::uint64_t seed = 1;
 };

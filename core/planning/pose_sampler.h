@@ -33,7 +33,8 @@ class PoseSampler {
   }
   /// Source: Shoemake 1992.
   glm::dquat rotation() {
-    const double u = share(), a = between(0.0, 2.0 * std::numbers::pi), b = between(0.0, 2.0 * std::numbers::pi);
+    const double u = share(), a = between(0.0, 2.0 * std::numbers::pi),
+                 b = between(0.0, 2.0 * std::numbers::pi);
     const double p = std::sqrt(1.0 - u), q = std::sqrt(u);
     return {q * std::cos(b), p * std::sin(a), p * std::cos(a), q * std::sin(b)};
   }

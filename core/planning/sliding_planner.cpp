@@ -41,9 +41,8 @@ double distanceBetween(const RigidTransform& a, const RigidTransform& b, double 
 class PoseTree {
  public:
   explicit PoseTree(double radius) {
-    nearest_.setDistanceFunction([radius](const PoseNode* a, const PoseNode* b) {
-      return distanceBetween(a->pose, b->pose, radius);
-    });
+    nearest_.setDistanceFunction(
+        [radius](const PoseNode* a, const PoseNode* b) { return distanceBetween(a->pose, b->pose, radius); });
   }
 
   PoseNode* add(const RigidTransform& pose, const PoseNode* parent) {

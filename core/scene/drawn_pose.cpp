@@ -78,8 +78,9 @@ RigidTransform drawnPose(const Scene& scene, PartId id, const ProgressCallback& 
   if (own != places.end()) return *own;
   if (places.size() == 1) return places.front();
   throw UsageError(where,
-                   places.empty() ? "other parts of its shape are at all places where it was drawn"
-                                  : fmt::format("its document has {} free places for its shape", places.size()),
+                   places.empty()
+                       ? "other parts of its shape are at all places where it was drawn"
+                       : fmt::format("its document has {} free places for its shape", places.size()),
                    "give a pose");
 }
 

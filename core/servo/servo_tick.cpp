@@ -189,8 +189,7 @@ void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcep
 GuidancePull ServoTick::pullOfGuidance(const Tick& tick) noexcept {
   const GuidancePath* path = tick.scene.guidance.get();
   if (path == nullptr) return {};
-  const GuidanceSettings settings =
-      boundedGuidance(path->settings(), tick.limits, periodMeter_.heldPeriod());
+  const GuidanceSettings settings = boundedGuidance(path->settings(), tick.limits, periodMeter_.heldPeriod());
   return guidance_.follow(*path, settings, handle_.pose.applyToPoint(tick.scene.centreInPart));
 }
 

@@ -78,11 +78,11 @@ void runSuggestBench(const SuggestBenchOptions& options) {
 
 void addSuggestCommand(CLI::App& program) {
   const auto options = std::make_shared<SuggestBenchOptions>();
-  CLI::App* command =
-      program.add_subcommand("suggest",
-                             "Searches paths of a peg out of and into its hole, and of a bent pipe out of and "
-                             "into a plate, with one seed after another. Times are of the whole search on all "
-                             "processors. Exit code 1 if fewer seeds than --share find one.");
+  CLI::App* command = program.add_subcommand(
+      "suggest",
+      "Searches paths of a peg out of and into its hole, and of a bent pipe out of and "
+      "into a plate, with one seed after another. Times are of the whole search on all "
+      "processors. Exit code 1 if fewer seeds than --share find one.");
   command->add_option("--seeds", options->seeds, "Number of seeds, from 1")->capture_default_str();
   command->add_option("--seconds", options->seconds, "Time of each search [s]")->capture_default_str();
   command->add_option("--share", options->share, "Share of the seeds that have to find a path")

@@ -20,7 +20,8 @@ namespace nearfit::test {
 
 /// A square plate about z with a round hole along it; 8 * segments faces.
 /// @param side  More than three times the hole's radius.   @param segments  A multiple of 8.
-inline TriangleMesh plateWithHoleMesh(double side, double thickness, double holeRadius, std::uint32_t segments) {
+inline TriangleMesh plateWithHoleMesh(double side, double thickness, double holeRadius,
+                                      std::uint32_t segments) {
   const TriangleMesh tube = tubeMesh(holeRadius, 1.5 * holeRadius, thickness, segments);
   std::vector<glm::dvec3> vertices(tube.vertices().begin(), tube.vertices().end());
   for (glm::dvec3& v : vertices) {

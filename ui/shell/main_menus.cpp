@@ -89,8 +89,8 @@ void MainMenus::setUpEditMenu() {
   QMenu* menu = window_->menuBar()->addMenu(tr("&Edit"));
   menu->addActions({commands_.undo.undo, commands_.undo.redo, menu->addSeparator(), parts.takeInHand,
                     parts.duplicate, parts.rename, parts.recolour, parts.changeUnit, parts.refine,
-                    parts.check, commands_.suggestion.action(), parts.remove, menu->addSeparator(), parts.selectAll,
-                    commands_.boxSelect.action(), parts.selectNone});
+                    parts.check, commands_.suggestion.action(), parts.remove, menu->addSeparator(),
+                    parts.selectAll, commands_.boxSelect.action(), parts.selectNone});
   parts.tree().addTo(*menu);
   menu->addMenu(&parts.joints().menu());
 }

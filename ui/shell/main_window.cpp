@@ -282,12 +282,11 @@ void MainWindow::makeToolsAndMenus() {
   auto* pictures = new PictureTaker(session_, viewport_->pictures(), this);
   makeReviewPanels();
   suggestion_ = new PathSuggestion({session_, *hand_, *viewport_}, this);
-  const auto* menus =
-      new MainMenus(this,
-                    {*files_, *exporter, *pictures, *undo_, *parts_, *box, *viewActions_, *measure, *section,
-                     *placing_, *align, *drop, *feel_, *handControl_, *recording_, *replay_, *clearanceMap_,
-                     *suggestion_},
-                    panelsMenu_, units_);
+  const auto* menus = new MainMenus(
+      this,
+      {*files_, *exporter, *pictures, *undo_, *parts_, *box, *viewActions_, *measure, *section, *placing_,
+       *align, *drop, *feel_, *handControl_, *recording_, *replay_, *clearanceMap_, *suggestion_},
+      panelsMenu_, units_);
   shell_ = new WindowShell(this, *files_, menus->viewMenu(), menus->helpMenu());
   listenTo(*placing_, *handControl_, *selectedPose_, *align, *drop, *box, *exporter, *pictures);
   connect(units_, &UnitMenu::unitChanged, measure, &MeasureTool::refresh);

@@ -26,17 +26,18 @@ TEST_F(SuggestCommand, APathIsFoundThatCertifies) {
   const auto result = suggest({"--to", "0,0,1.1,1,0,0,0", "--separation", "0.05"});
   ASSERT_EQ(result.exitCode, 0) << result.out << result.err;
   EXPECT_TRUE(nlohmann::json::parse(result.out).at("found").get<bool>());
-  const auto certified = runCli(
-      {"certify", path("in.nfpath"), scene_, "-o", path("in.nfcert"), "--separation", "0.05"});
+  const auto certified =
+      runCli({"certify", path("in.nfpath"), scene_, "-o", path("in.nfcert"), "--separation", "0.05"});
   EXPECT_EQ(certified.exitCode, 0) << certified.out << certified.err;
 }
 
 TEST_F(SuggestCommand, LeadsRoundThePlateToItsOtherSide) {
   const auto result = suggest({"--to", "0,0,-1.2,1,0,0,0", "--separation", "0.05"});
   ASSERT_EQ(result.exitCode, 0) << result.out << result.err;
-  EXPECT_GT(nlohmann::json::parse(result.out).at("poses").get<int>(), 2) << "the plate is in the straight way";
-  const auto certified = runCli(
-      {"certify", path("in.nfpath"), scene_, "-o", path("in.nfcert"), "--separation", "0.05"});
+  EXPECT_GT(nlohmann::json::parse(result.out).at("poses").get<int>(), 2)
+      << "the plate is in the straight way";
+  const auto certified =
+      runCli({"certify", path("in.nfpath"), scene_, "-o", path("in.nfcert"), "--separation", "0.05"});
   EXPECT_EQ(certified.exitCode, 0) << certified.out << certified.err;
 }
 

@@ -77,7 +77,8 @@ TEST(Guidance, AClosedWayOfTheHandGainsNothing) {
   double work = 0.0;
   const auto at = [](int i) {
     const double angle = 2.0 * std::numbers::pi * i / kSteps;
-    return glm::dvec3(-0.05 + 0.07 * std::cos(angle), 0.05 + 0.07 * std::sin(angle), 0.01 * std::sin(3.0 * angle));
+    return glm::dvec3(-0.05 + 0.07 * std::cos(angle), 0.05 + 0.07 * std::sin(angle),
+                      0.01 * std::sin(3.0 * angle));
   };
   for (int i = 0; i < kSteps; ++i) {
     const glm::dvec3 middle = 0.5 * (at(i) + at(i + 1));

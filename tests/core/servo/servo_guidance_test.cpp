@@ -81,7 +81,8 @@ TEST_F(ServoGuidance, AHandThatWandersAboutGainsNoEnergy) {
   glm::dvec3 before(0.0);
   for (int i = 0; i < 20'000; ++i) {
     const double t = kPeriod * i;
-    const glm::dvec3 hand(0.5 * std::sin(0.7 * t + a), 0.03 * std::sin(9.0 * t), 0.03 * std::sin(13.0 * t + b));
+    const glm::dvec3 hand(0.5 * std::sin(0.7 * t + a), 0.03 * std::sin(9.0 * t),
+                          0.03 * std::sin(13.0 * t + b));
     // A spring that is held while the hand moves gives at most K / 2 times the square of the step across the path.
     const glm::dvec3 step = i > 0 ? hand - before : glm::dvec3(0.0);
     sampled += 0.5 * kPull.stiffness * (step.y * step.y + step.z * step.z);

@@ -63,8 +63,9 @@ PathSuggestion::PathSuggestion(const Context& context, QWidget* window)
       hand_(context.hand),
       view_(context.view),
       window_(window),
-      action_(makeAction(this, "suggestPath", tr("Suggest &path…"), {}, {},
-                         tr("Look for a way of what is in hand to where it was drawn, or out of the assembly"))),
+      action_(
+          makeAction(this, "suggestPath", tr("Suggest &path…"), {}, {},
+                     tr("Look for a way of what is in hand to where it was drawn, or out of the assembly"))),
       ghost_(std::make_unique<ServoSnapshot>()) {
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.setInterval(kGhostMs);
@@ -121,9 +122,9 @@ void PathSuggestion::show(const Search& search) {
     return emit noted(tr("The path that was searched is of what is no longer in hand"));
   const bool isFound = search.result.end == PathSearchEnd::Found;
   if (isFound) path_ = std::make_shared<const AssemblyPath>(search.result.path);
-  const std::string text = describePathSearch(
-      search.scene, search.goal, search.result,
-      [](double length) { return formatLength(length).toStdString(); });
+  const std::string text = describePathSearch(search.scene, search.goal, search.result, [](double length) {
+    return formatLength(length).toStdString();
+  });
   card_ = new SuggestionCard(QString::fromStdString(text), isFound, window_);
   connect(card_, &SuggestionCard::saveWanted, this, &PathSuggestion::save);
   connect(card_, &SuggestionCard::guidanceWanted, this, &PathSuggestion::guide);
@@ -148,11 +149,12 @@ void PathSuggestion::close() {
 }
 
 void PathSuggestion::save() {
-  const std::optional<QString> file = askForSave({tr("Save path"),
-                                                  Preferences::lastFolder() + QStringLiteral("/suggested.nfpath"),
-                                                  {tr("Paths (*.nfpath)")},
-                                                  {QStringLiteral("nfpath")}},
-                                                 window_);
+  const std::optional<QString> file =
+      askForSave({tr("Save path"),
+                  Preferences::lastFolder() + QStringLiteral("/suggested.nfpath"),
+                  {tr("Paths (*.nfpath)")},
+                  {QStringLiteral("nfpath")}},
+                 window_);
   if (!file || !path_) return;
   Preferences::rememberFolderOf(*file);
   try {

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "core/path/path_search.h"
-#include "core/session/session.h"
 #include "core/servo/servo_snapshot.h"
+#include "core/session/session.h"
 #include "ui/panels/suggest/suggest_dialog.h"
 #include "ui/widgets/background_task.h"
 #include "ui/widgets/error_box.h"
