@@ -98,7 +98,7 @@ void keepNamesOfOtherScripts(const Interface_InterfaceModel& model) {
     if (!name.IsNull() && name->Length() > 0 && name->UsefullLength() == 0) entity.SetId(name);
   };
   for (int i = 1; i <= model.NbEntities(); ++i) {
-    const Handle(Standard_Transient) entity = model.Value(i);
+    const Handle(Standard_Transient)& entity = model.Value(i);
     if (const auto product = Handle(StepBasic_Product)::DownCast(entity); !product.IsNull()) keep(*product);
     const auto instance = Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(entity);
     if (!instance.IsNull()) keep(*instance);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -285,6 +286,16 @@ TEST(PathCertifier, DefaultSeparationIsAMillionthOfThePartAtMostAMicrometre) {
   cube.geometry = test::geometryOf(test::boxMesh({0.01, 0.01, 0.01}));
   made.scene.replace(cube);
   EXPECT_NEAR(defaultSeparation(made.scene, made.path), 1e-6 * 0.01 * std::sqrt(3.0), 1e-14);
+}
+
+TEST(PathCertifier, ASegmentThatTakesTooManyDistancesIsNotProven) {
+  // Past a gap of 0.1 m for a way of 2 m on which both sides overlap: some ten distances.
+  const test::PathScene made = test::cubePastCube(0.1);
+  const PathCertifier certifier(made.scene, made.path, 1e-3);
+  const PathSegment segment{made.path.poses[0].worldFromLead, made.path.poses[1].worldFromLead};
+  EXPECT_EQ(certifier.freeSegments(std::span(&segment, 1)).front(), 1);
+  EXPECT_EQ(certifier.freeSegments(std::span(&segment, 1), {}, 1000).front(), 1);
+  EXPECT_EQ(certifier.freeSegments(std::span(&segment, 1), {}, 3).front(), 0);
 }
 
 }  // namespace

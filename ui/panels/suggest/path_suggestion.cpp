@@ -64,7 +64,7 @@ PathSuggestion::PathSuggestion(const Context& context, QWidget* window)
       view_(context.view),
       window_(window),
       action_(
-          makeAction(this, "suggestPath", tr("Suggest &path…"), {}, {},
+          makeAction(this, "suggestPath", tr("Suggest path…"), {}, {},
                      tr("Look for a way of what is in hand to where it was drawn, or out of the assembly"))),
       ghost_(std::make_unique<ServoSnapshot>()) {
   timer_.setTimerType(Qt::PreciseTimer);
