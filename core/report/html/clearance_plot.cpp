@@ -126,7 +126,7 @@ class PlotWriter {
   void writeCurve(std::size_t index) {
     std::string d;
     bool isDown = false;
-    for (const PlotPoint& point : thinnedCurve(plot_.times, curves_[index].distances)) {
+    for (const ClearancePlotPoint& point : thinnedCurve(plot_.times, curves_[index].distances)) {
       if (std::isfinite(point.distance))
         d += fmt::format("{}{} {}", isDown ? 'L' : 'M', placeText(time_.placeOf(point.time)),
                          placeText(distance_.placeOf(kMillimetres * point.distance)));
@@ -159,10 +159,11 @@ class PlotWriter {
 
 }  // namespace
 
-std::vector<PlotPoint> thinnedCurve(std::span<const double> times, std::span<const double> distances) {
+std::vector<ClearancePlotPoint> thinnedCurve(std::span<const double> times,
+                                             std::span<const double> distances) {
   const std::size_t count = std::min(times.size(), distances.size());
   const std::size_t stretches = std::min(count, kMaxPlotPoints);
-  std::vector<PlotPoint> points;
+  std::vector<ClearancePlotPoint> points;
   for (std::size_t i = 0; i < stretches; ++i) {
     const std::size_t from = i * count / stretches, to = (i + 1) * count / stretches;
     std::size_t least = from;

@@ -26,13 +26,14 @@ struct ClearancePlot {
   std::optional<double> separation;  ///< Kept all along the path, as a certificate says [m].
 };
 
-struct PlotPoint {
+struct ClearancePlotPoint {
   double time = 0.0, distance = 0.0;
 };
 
 /// Points of a curve thinned to kMaxPlotPoints: of each stretch of times the place of its least distance, so that no
 /// narrow place is lost.
-std::vector<PlotPoint> thinnedCurve(std::span<const double> times, std::span<const double> distances);
+std::vector<ClearancePlotPoint> thinnedCurve(std::span<const double> times,
+                                             std::span<const double> distances);
 
 /// The curves to draw: those that come nearest, the nearest first.
 std::vector<PlotCurve> nearestCurves(const ClearancePlot& plot);

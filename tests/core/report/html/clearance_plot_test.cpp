@@ -45,7 +45,7 @@ TEST(ClearancePlot, AThinnedCurveKeepsEachNarrowPlaceAndItsTime) {
   }
   for (const std::size_t narrow : {std::size_t{0}, std::size_t{31'415}, std::size_t{99'999}})
     distances[narrow] = 0.5;
-  const std::vector<PlotPoint> points = thinnedCurve(times, distances);
+  const std::vector<ClearancePlotPoint> points = thinnedCurve(times, distances);
   EXPECT_EQ(points.size(), kMaxPlotPoints);
   std::size_t found = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -59,7 +59,7 @@ TEST(ClearancePlot, AThinnedCurveKeepsEachNarrowPlaceAndItsTime) {
 
 TEST(ClearancePlot, FewPosesAreAllDrawn) {
   const std::vector<double> times{0, 1, 2}, distances{3, kFar, 1};
-  const std::vector<PlotPoint> points = thinnedCurve(times, distances);
+  const std::vector<ClearancePlotPoint> points = thinnedCurve(times, distances);
   ASSERT_EQ(points.size(), 3U);
   EXPECT_EQ(points[2].time, 2.0);
   EXPECT_EQ(points[1].distance, kFar);
