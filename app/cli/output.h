@@ -35,8 +35,8 @@ class ReportedFailure : public std::exception {
   const char* what() const noexcept override { return "the command failed"; }
 };
 
-/// Thrown by a command that has printed a verdict which is no, such as a path that is not proven free or a clash that no rule allows: exit code 3, no
-/// further line.
+/// Thrown by a command that has printed a verdict which is no, such as a path that is not proven free or a clash that no
+/// rule allows: exit code 3, no further line.
 class NegativeVerdict : public std::exception {
  public:
   const char* what() const noexcept override { return "the verdict is no"; }

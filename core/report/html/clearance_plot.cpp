@@ -49,6 +49,11 @@ struct Axis {
   }
 };
 
+/// Multiples of a step are counted down to zero from below, too.
+std::string tickText(double value) {
+  return fmt::format("{:.6g}", value == 0.0 ? 0.0 : value);
+}
+
 std::string placeText(double place) {
   return fmt::format("{:.2f}", place);
 }
@@ -110,12 +115,12 @@ class PlotWriter {
     for (const double value : time_.ticks()) {
       const double x = time_.placeOf(value);
       line(x, kTop, x, kHeight - kBottom, "#dddddd");
-      label(x, kHeight - kBottom + 16.0, "middle", fmt::format("{:.6g}", value));
+      label(x, kHeight - kBottom + 16.0, "middle", tickText(value));
     }
     for (const double value : distance_.ticks()) {
       const double y = distance_.placeOf(value);
       line(kLeft, y, kWidth - kRight, y, "#dddddd");
-      label(kLeft - 6.0, y + 4.0, "end", fmt::format("{:.6g}", value));
+      label(kLeft - 6.0, y + 4.0, "end", tickText(value));
     }
     line(kLeft, kTop, kLeft, kHeight - kBottom, "#444444");
     line(kLeft, kHeight - kBottom, kWidth - kRight, kHeight - kBottom, "#444444");

@@ -322,7 +322,9 @@ class ReportPage {
       if (now != nullptr && now->isForbidden()) html_.put("not allowed");
     });
     cell([&] {
-      html_.put(fmt::format("{}, {}", wordOf(row.state), wordOf(row.change)));
+      const std::string_view state = wordOf(row.state), change = wordOf(row.change);
+      html_.put(state);
+      if (change != state) html_.put(fmt::format(", {}", change));
       if (row.reason.empty()) return;
       html_.put(": ");
       html_.putName(row.reason);
@@ -390,10 +392,14 @@ class ReportPage {
                               plural(finding.minima.size(), "minimum", "minima")));
     }
     if (finding.depth()) {
+      // Rounding leaves traces in components that are 0.
+      constexpr double kNothing = 1e-9;
+      const auto said = [](double x) { return std::abs(x) < kNothing ? 0.0 : x; };
       const glm::dvec3& direction = finding.clash->freeing->direction;
       html_.put(finding.clash->isDepthExact ? "; depth " : "; depth at most ");
       length(*finding.depth());
-      html_.put(fmt::format(", along ({:.4g}, {:.4g}, {:.4g})", direction.x, direction.y, direction.z));
+      html_.put(fmt::format(", along ({:.4g}, {:.4g}, {:.4g})", said(direction.x), said(direction.y),
+                            said(direction.z)));
     }
     if (finding.clash && finding.clash->volume) {
       html_.put("; shared volume ");
