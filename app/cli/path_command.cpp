@@ -208,7 +208,7 @@ void addPathCommand(CLI::App& program) {
   command->add_option(
       "--resolution", options->resolution,
       "Of --swept: the mesh holds all that is passed, and is nowhere farther than this from it [m]; "
-      "default: a fiftieth of the part");
+      "default: a twentieth of the part");
   command
       ->add_option("--unit", options->unit,
                    "Unit of the coordinates of --swept: m, cm, mm, um, in, ft, or a number of metres")

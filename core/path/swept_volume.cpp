@@ -322,7 +322,7 @@ struct SweptPart {
 }  // namespace
 
 double defaultSweptResolution(const Scene& scene, const AssemblyPath& path) {
-  constexpr double kShare = 0.02;
+  constexpr double kShare = 0.05;
   double size = 0.0;
   for (const PathPart& moving : pathBodies(scene, path).moving)
     size = std::max(size, moving.part->geometry->mesh.bounds().diagonal());
@@ -336,7 +336,7 @@ TriangleMesh sweptVolume(const Scene& scene, const AssemblyPath& path, double re
   const PathBodies bodies = pathBodies(scene, path);
   const auto fail = [&] {
     throw UsageError("swept volume", fmt::format("a resolution of {} m cannot be made", resolution),
-                     "give a coarser one, such as a fiftieth of the part");
+                     "give a coarser one, such as a twentieth of the part");
   };
   if (!(resolution > 0.0) || !std::isfinite(resolution)) fail();
   const double cell = kCellShare * resolution;

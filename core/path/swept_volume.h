@@ -10,7 +10,8 @@ namespace nearfit {
 /// Max number of lattice nodes of a swept volume: some 800 MB while it is made.
 constexpr double kMaxSweptNodes = 2e8;
 
-/// Resolution of a swept volume if none is given: a fiftieth of the diagonal of the largest moving part [m]. Throws
+/// Resolution of a swept volume if none is given: a twentieth of the diagonal of the largest moving part [m], some
+/// seconds for a part that goes once its own length. Throws
 /// UsageError as pathBodies().
 double defaultSweptResolution(const Scene& scene, const AssemblyPath& path);
 
