@@ -179,9 +179,9 @@ Picture Raster::picture() const {
     for (int x = 0; x < width(); ++x) {
       std::array<unsigned, 3> sum{};
       for (int sample = 0; sample < kSamples * kSamples; ++sample) {
-        const auto row = static_cast<std::size_t>(y * kSamples + sample / kSamples);
-        const auto column = static_cast<std::size_t>(x * kSamples + sample % kSamples);
-        const Pixel& pixel = colour_[row * static_cast<std::size_t>(width_) + column];
+        const int row = y * kSamples + sample / kSamples, column = x * kSamples + sample % kSamples;
+        const Pixel& pixel = colour_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                                     static_cast<std::size_t>(column)];
         for (std::size_t k = 0; k < 3; ++k)
           sum[k] += pixel[k];
       }
