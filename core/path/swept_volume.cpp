@@ -297,9 +297,9 @@ class SweptLattice {
   }
 
   glm::dvec3 positionOf(std::size_t node) const {
-    return origin_ + cell_ * glm::dvec3(static_cast<double>(node % size_[0]),
-                                        static_cast<double>(node / size_[0] % size_[1]),
-                                        static_cast<double>(node / (size_[0] * size_[1])));
+    const std::size_t row = node / size_[0] % size_[1], layer = node / (size_[0] * size_[1]);
+    return origin_ + cell_ * glm::dvec3(static_cast<double>(node % size_[0]), static_cast<double>(row),
+                                        static_cast<double>(layer));
   }
 
   double cell_;

@@ -120,8 +120,8 @@ class GlbDocument {
 
   /// Throws UsageError if the bytes are more than a file can hold.
   std::string text() {
-    for (std::size_t i = 0; i < geometries_.size(); ++i)
-      addGeometry(geometries_[i]);
+    for (GlbGeometry& geometry : geometries_)
+      addGeometry(geometry);
     addNodes();
     if (bytes_ > kMaxGlbBytes)
       throw UsageError("glTF export", "its triangles are more than a file of 4 GiB can hold",
@@ -221,8 +221,10 @@ class GlbDocument {
   void addNodes() {
     // Node 0 is the root.
     std::vector<std::vector<std::size_t>> children(tree_.nodes.size() + 1);
-    for (std::size_t i = 0; i < tree_.nodes.size(); ++i)
-      children[static_cast<std::size_t>(tree_.nodes[i].parent + 1)].push_back(i + 1);
+    for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
+      const std::int32_t above = tree_.nodes[i].parent + 1;
+      children[static_cast<std::size_t>(above)].push_back(i + 1);
+    }
     const double half = std::numbers::sqrt2 / 2.0;
     nodes_.push_back({{"name", name_}, {"rotation", {-half, 0.0, 0.0, half}}, {"children", children[0]}});
     for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -52,8 +53,8 @@ std::vector<DrawnMark> marksOf(const PairFinding& finding) {
       marks.push_back({curve, kCurveColour, kLine});
   }
   // The nearest comes last, over the others; a clash with curves has no nearest points of its own.
-  for (auto minimum = finding.minima.rbegin(); minimum != finding.minima.rend(); ++minimum)
-    addSegment(marks, minimum->partPoint, minimum->otherPoint, kMinimumColour);
+  for (const auto& minimum : std::views::reverse(finding.minima))
+    addSegment(marks, minimum.partPoint, minimum.otherPoint, kMinimumColour);
   if (marks.empty() || !finding.clash)
     addSegment(marks, finding.partPoint, finding.otherPoint, kNearestColour);
   return marks;

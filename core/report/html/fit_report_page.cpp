@@ -675,7 +675,7 @@ class ReportPage {
     namedEntry("Meshes whose faces are not all turned outward alike",
                namesWhere([](const Part& part) { return !part.geometry->mesh.topology().isOriented(); }));
     namedEntry("Meshes that differ from their files by repairs",
-               namesWhere([](const Part& part) { return !(part.geometry->repairs == MeshRepairs{}); }));
+               namesWhere([](const Part& part) { return !part.geometry->repairs.empty(); }));
     double chord = 0.0;
     for (const Scene::PartPtr& part : request_.scene.parts()) {
       if (part->isVisible && part->geometry)
