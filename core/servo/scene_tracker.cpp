@@ -189,7 +189,9 @@ void SceneTracker::refresh(const SearchReach& reach, TrackedScene& out) {
     }
     current_.cutoff = cutoff;
     current_.reach = reach;
-    if (isClearanceDue(reach)) {
+    // With nothing near it costs little, and then holds as long as the room for motion found just now.
+    const bool isAtHand = current_.near.empty() && current_.clearanceSpent(forecast_.pose()) > 0.0;
+    if (isClearanceDue(reach) || (reach.contact <= 0.0 && isAtHand)) {
       current_.clearance =
           findClearance(*current_.scene, *current_.bounds, forecast_.pose(), reach.widest(), scratch_);
       current_.clearance.serial = ++lastSerial_;
