@@ -40,7 +40,7 @@ replace the scene's for this run.
           energy, given to the hand since the start, less what came back [J]; sub_steps, of the proxy in
           this tick; shortened and refused, those cut short or not taken because of a collision;
           constraints and contacts, minima that limited its last step and those that held it; released,
-          parts that the moving part overlaps and that are not felt; proxy_us, time of the proxy without its
+          parts that the moving part overlaps, which the proxy does not feel; proxy_us, time of the proxy without its
           queries; clamped, 0 or 1; fault, 0 for none (the summary says which).
 --export  JSON: each part's pose and mesh, and the minima between the led part and each other part.
 A tick that ends late skips periods, not rows: the run then takes longer, and the summary says so. If the disk

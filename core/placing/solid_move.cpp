@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <glm/geometric.hpp>
-
 #include "core/base/error.h"
 #include "core/mesh/mass_properties.h"
 #include "core/scene/haptic_limits.h"
@@ -32,12 +30,6 @@ bool isSame(const RigidTransform& a, const RigidTransform& b) {
 
 bool turns(const RigidTransform& motion) {
   return motion.rotation.x != 0.0 || motion.rotation.y != 0.0 || motion.rotation.z != 0.0;
-}
-
-/// Upper bound on how far any point of the body moves [m].
-double travelBetween(const ServoScene& scene, const RigidTransform& from, const RigidTransform& to) {
-  const glm::dvec3 shift = to.applyToPoint(scene.centreInPart) - from.applyToPoint(scene.centreInPart);
-  return glm::length(shift) + scene.metric.radius * glm::length(turnBetween(from.rotation, to.rotation));
 }
 
 /// Joins the meshes that are searched, in the frame of `worldFromAll`. Where meshes cross, the result has no inside, and

@@ -113,12 +113,11 @@ std::vector<PartClearance> clearancesOf(const Scene& scene, const std::vector<Pa
 }
 
 void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clearances) noexcept {
+  // Surfaces that pass through each other have minima too: only where it is known what overlaps do they tell a distance.
+  if (snapshot.isOverlapUnknown || snapshot.overlappingCount > ServoSnapshot::kMaxOverlapping) return;
   const bool isEvery = !snapshot.isTruncated && snapshot.storedLmds == snapshot.lmdCount;
-  const auto overlapping =
-      std::span(snapshot.overlapping)
-          .first(std::min<std::size_t>(snapshot.overlappingCount, ServoSnapshot::kMaxOverlapping));
+  const auto overlapping = std::span(snapshot.overlapping).first(snapshot.overlappingCount);
   for (PartClearance& each : clearances) {
-    // Overlapping parts have minima too, between surfaces that pass through each other.
     if (!each.isBetweenSolids || std::ranges::find(overlapping, each.other) != overlapping.end()) continue;
     const SnapshotLmd* nearest = nullptr;
     std::size_t count = 0;

@@ -110,6 +110,15 @@ SceneNodes outermost(const Scene& scene, const SceneNodes& nodes) {
   return result;
 }
 
+std::optional<PartId> leadOfGroup(const Scene& scene, GroupId group) {
+  if (scene.movingGroup() == group) return scene.movingPart();
+  const std::vector<PartId> parts = partsOf(scene, {{}, {group}});
+  if (parts.empty()) return std::nullopt;
+  const auto withGeometry =
+      std::ranges::find_if(parts, [&](PartId part) { return scene.get(part).geometry != nullptr; });
+  return withGeometry != parts.end() ? *withGeometry : parts.front();
+}
+
 std::optional<GroupId> commonGroup(const Scene& scene, const SceneNodes& nodes) {
   const SceneNodes outer = outermost(scene, nodes);
   std::optional<std::vector<GroupId>> common;

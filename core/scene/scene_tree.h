@@ -33,6 +33,9 @@ std::vector<PartId> partsOf(const Scene& scene, const SceneNodes& nodes);
 std::vector<GroupId> groupsOf(const Scene& scene, const SceneNodes& nodes);
 /// The nodes without those that a listed group contains; each once, in scene order.
 SceneNodes outermost(const Scene& scene, const SceneNodes& nodes);
+/// The part in whose frame the pose of a group is given: of the moving group Scene::movingPart(), of others the one that
+/// would lead it, the first with a geometry in scene order. std::nullopt if the group has no parts.
+std::optional<PartId> leadOfGroup(const Scene& scene, GroupId group);
 /// Innermost group that contains all nodes; std::nullopt if there is none or `nodes` is empty.
 std::optional<GroupId> commonGroup(const Scene& scene, const SceneNodes& nodes);
 

@@ -120,11 +120,6 @@ double Proxy::travelOf(const ServoScene& scene, const Motion& motion) noexcept {
   return glm::length(motion.shift) + glm::length(motion.spin) * scene.metric.radius;
 }
 
-double Proxy::travelBetween(const ServoScene& scene, const RigidTransform& from,
-                            const RigidTransform& to) noexcept {
-  return travelOf(scene, motionBetween(scene, from, to));
-}
-
 double Proxy::wayTo(const Tick& tick) const noexcept {
   return travelBetween(*tick.tracked.scene, pose_, tick.target);
 }

@@ -166,8 +166,6 @@ class Proxy {
                               const RigidTransform& to) noexcept;
   /// Upper bound on the travel of any point of the part [m].
   static double travelOf(const ServoScene& scene, const Motion& motion) noexcept;
-  static double travelBetween(const ServoScene& scene, const RigidTransform& from,
-                              const RigidTransform& to) noexcept;
   /// Upper bound on the travel of any point of the part to the target [m].
   double wayTo(const Tick& tick) const noexcept;
   RigidTransform moved(const ServoScene& scene, const Motion& motion) const noexcept;

@@ -34,6 +34,11 @@ constexpr double kUsualTriangleRoom = 8.0, kLeastTriangleRoom = 1.0;
 /// Share of that room that must be left at a pose, and for a part that is starved.
 constexpr double kTriangleRoomToKeep = 0.5, kTriangleRoomIfStarved = 0.98;
 
+/// With springs no force depends on what overlaps: it is only shown, some hundred times a second. So it is looked at anew
+/// after that many ticks at the earliest, once that share of its room for motion is spent.
+constexpr double kTicksBetweenShownClearances = 8.0;
+constexpr double kShownClearanceToSpend = 0.5;
+
 /// A list of the pool that is not in use, or a new one.
 template <class List>
 std::shared_ptr<List> spareOf(std::vector<std::shared_ptr<List>>& pool) {
@@ -80,6 +85,7 @@ void SceneTracker::setScene(std::shared_ptr<const ServoScene> scene) {
 
 void SceneTracker::update(const TickObservation& tick, double ticks) noexcept {
   forecast_.observe(tick.worldFromPart, ticks);
+  clearanceAge_ += ticks;
   if (tick.worldFromHand) hand_.observe(*tick.worldFromHand, ticks);
   isWaiting_ = tick.isWaiting;
   isStarved_ = tick.isStarved;
@@ -141,12 +147,15 @@ bool SceneTracker::hasTriangles(std::uint32_t body, const SearchReach& reach) co
 }
 
 bool SceneTracker::isClearanceDue(const SearchReach& reach) const noexcept {
-  if (reach.contact <= 0.0) return false;
   const Clearance& known = current_.clearance;
   if (known.serial == 0) return true;
   const RigidTransform &then = known.worldFromPart, &now = forecast_.pose();
   const bool hasMoved = then.translation != now.translation || then.rotation != now.rotation;
   // Bodies that overlapped may have come apart.
+  if (reach.contact <= 0.0) {
+    return hasMoved && clearanceAge_ >= kTicksBetweenShownClearances &&
+           (!known.overlapping->empty() || current_.clearanceSpent(now) > kShownClearanceToSpend);
+  }
   return isWaiting_ ? hasMoved || known.distance > 0.0 : hasMoved && !known.overlapping->empty();
 }
 
@@ -180,10 +189,13 @@ void SceneTracker::refresh(const SearchReach& reach, TrackedScene& out) {
     }
     current_.cutoff = cutoff;
     current_.reach = reach;
-    if (isClearanceDue(reach)) {
+    // With nothing near it costs little, and then holds as long as the room for motion found just now.
+    const bool isAtHand = current_.near.empty() && current_.clearanceSpent(forecast_.pose()) > 0.0;
+    if (isClearanceDue(reach) || (reach.contact <= 0.0 && isAtHand)) {
       current_.clearance =
           findClearance(*current_.scene, *current_.bounds, forecast_.pose(), reach.widest(), scratch_);
       current_.clearance.serial = ++lastSerial_;
+      clearanceAge_ = 0.0;
     }
   }
   current_.serial = nextSerial();

@@ -83,6 +83,7 @@ class SceneTracker {
   };
   std::vector<Memory> memory_;
   std::uint64_t lastSerial_ = 0;  ///< Of the last clearance.
+  double clearanceAge_ = 0.0;     ///< [ticks]
   bool isWaiting_ = false, isStarved_ = false;
   MotionForecast forecast_, hand_;
   LmdScratch scratch_;

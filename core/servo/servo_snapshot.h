@@ -76,7 +76,7 @@ struct ServoSnapshot {
 
   HapticMode mode = HapticMode::Proxy;
   double period = 0.0;  ///< Measured period that the coupling is computed with [s].
-  /// The coupling in force. Proxy mode only, like everything below except the energy.
+  /// The coupling in force. Proxy mode only, like everything below except the energy and what overlaps.
   CouplingState coupling;
   double energyToHand = 0.0;          ///< Net work done on the hand since the start [J].
   double proxyTime = 0.0;             ///< Time of the proxy without its queries [s].
@@ -87,8 +87,11 @@ struct ServoSnapshot {
   std::uint32_t constraintCount = 0;  ///< Rows of the last step's program.
   std::uint32_t contactCount = 0;     ///< Contacts that hold the part.
   std::uint32_t storedContacts = 0;   ///< Entries of `contacts` in use.
-  /// Parts that overlap the moving one and so are not felt until they separate; `overlapping` holds the first.
+  /// Parts that overlap the moving one; `overlapping` holds the first. The proxy does not feel them until they separate.
   std::uint32_t overlappingCount = 0;
+  /// Springs mode only: the part may have entered others since it was last known what it overlaps. Then no distance
+  /// between surfaces is known to be one between solids.
+  bool isOverlapUnknown = false;
   /// The proxy waits, for a few ticks, until it is known what it overlaps.
   bool isWaiting = false;
   bool isStarved = false;  ///< Known contacts did not reach where the proxy would go.

@@ -60,7 +60,7 @@ void clearOutputs(ServoSnapshot& snapshot) noexcept {
   snapshot.constraintCount = snapshot.contactCount = snapshot.storedContacts = snapshot.overlappingCount = 0;
   snapshot.isTruncated = snapshot.isClamped = snapshot.isWaiting = snapshot.isStarved = snapshot.isBehind =
       false;
-  snapshot.areJointsContradictory = false;
+  snapshot.areJointsContradictory = snapshot.isOverlapUnknown = false;
   snapshot.jointCount = 0;
   snapshot.offJoints = {};
   snapshot.coupling = {};
@@ -209,6 +209,9 @@ Wrench ServoTick::feelSprings(const Tick& tick) noexcept {
   felt_ = part_;
   Wrench sum{mass_.weight, glm::dvec3(0.0)};
   findMinima(tick, 1.0, &tick.settings.springs, sum);
+  showOverlaps(tick);
+  tick.snapshot.isOverlapUnknown =
+      tick.scene.moving.geometry != nullptr && !(tick.tracked.clearanceSpent(part_.pose) < 1.0);
   return sum;
 }
 

@@ -125,6 +125,7 @@ class ServoTick {
   void movePart(const Subject& subject, const RigidTransform& pose) noexcept;
   void writePose(const Subject& subject) const noexcept;
   void describeProxy(const Subject& subject) noexcept;
+  static void showOverlaps(const Subject& subject) noexcept;
   /// Accounts for what the hand did since the last tick, before the part moves on.
   void account(const Tick& tick, const RigidTransform& handleBefore) noexcept;
   void send(const Tick& tick, const Wrench& wrench, const HandleInput& input) noexcept;

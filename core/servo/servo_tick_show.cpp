@@ -150,8 +150,13 @@ void ServoTick::describeProxy(const Subject& subject) noexcept {
       contact.part = memberAtContact(snapshot, subject.scene.members, part_.pose, contact);
     }
   }
+  showOverlaps(subject);
+}
+
+void ServoTick::showOverlaps(const Subject& subject) noexcept {
+  ServoSnapshot& snapshot = subject.snapshot;
   const Clearance& clearance = subject.tracked.clearance;
-  if (!clearance.overlapping) return;
+  if (!clearance.overlapping || subject.scene.moving.geometry == nullptr) return;
   snapshot.overlappingCount = static_cast<std::uint32_t>(clearance.overlapping->size());
   const std::size_t shown = std::min(clearance.overlapping->size(), ServoSnapshot::kMaxOverlapping);
   for (std::size_t i = 0; i < shown; ++i)

@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/haptics/virtual_coupling.h"
+
 namespace nearfit {
 namespace {
 
@@ -24,6 +26,11 @@ MovingBounds movingBounds(const ServoScene& scene, const RigidTransform& worldFr
   const glm::dvec3 centre = worldFromPart.applyToPoint(box.centre());
   const double radius = 0.5 * box.diagonal();
   return {centre, radius + kSpherePadding * (radius + glm::length(centre) + glm::length(box.centre()))};
+}
+
+double travelBetween(const ServoScene& scene, const RigidTransform& from, const RigidTransform& to) noexcept {
+  const glm::dvec3 shift = to.applyToPoint(scene.centreInPart) - from.applyToPoint(scene.centreInPart);
+  return glm::length(shift) + scene.metric.radius * glm::length(turnBetween(from.rotation, to.rotation));
 }
 
 TrackedScene untracked(std::shared_ptr<const ServoScene> scene) {
@@ -45,6 +52,19 @@ double TrackedScene::spent(const RigidTransform& pose, double forCutoff) const n
     return RigidTransform{p.rotation, p.applyToPoint(box.centre())};
   };
   return spentShare(motionBetween(centred(worldFromPart), centred(pose), 0.5 * box.diagonal()), clear);
+}
+
+double TrackedScene::clearanceSpent(const RigidTransform& pose) const noexcept {
+  if (clearance.serial == 0) return std::numeric_limits<double>::infinity();
+  // No solid comes within the cutoff on the way, so none is entered or left either.
+  const bool isAllFar = near.empty() && clearance.overlapping->empty() && spent(pose, cutoff) <= 1.0 &&
+                        spent(clearance.worldFromPart, cutoff) <= 1.0;
+  if (isAllFar) return 0.0;
+  const double travel = travelBetween(*scene, clearance.worldFromPart, pose);
+  if (travel == 0.0) return 0.0;
+  return travel <= std::numeric_limits<double>::max() && clearance.distance > 0.0
+             ? travel / clearance.distance
+             : std::numeric_limits<double>::infinity();
 }
 
 const TrackedScene::Near* TrackedScene::findNear(std::uint32_t body) const noexcept {

@@ -69,11 +69,15 @@ struct TrackedScene {
   double cutoff = 0.0;     ///< [m]; 0 if nothing is known.
   SearchReach reach;       ///< What the lists were made for.
   std::vector<Near> near;  ///< Ascending by body.
-  Clearance clearance;     ///< Known if contacts are needed.
+  Clearance clearance;     ///< With springs, a while behind the motion.
 
   /// Share of `clear` that a pose has spent; above 1, bodies that are not in `near` may be near. Infinity if
   /// `forCutoff` is beyond `cutoff`. Real-time safe.
   double spent(const RigidTransform& pose, double forCutoff) const noexcept;
+
+  /// Share of its room for motion that a pose has spent of what `clearance` says: below 1, the part overlaps no solid
+  /// there that it does not name. Infinity if nothing is known. Real-time safe.
+  double clearanceSpent(const RigidTransform& pose) const noexcept;
 
   /// Calls visit(body index, Near or null) for every body that may carry a minimum within `forCutoff`.
   /// Real-time safe.
@@ -91,6 +95,9 @@ struct MovingBounds {
 };
 /// That sphere, padded for rounding. Real-time safe.
 MovingBounds movingBounds(const ServoScene& scene, const RigidTransform& worldFromPart) noexcept;
+
+/// Upper bound on the travel of any point of the moving part [m]. Real-time safe.
+double travelBetween(const ServoScene& scene, const RigidTransform& from, const RigidTransform& to) noexcept;
 
 /// A scene about which nothing is known yet: every tick searches anew. Allocates.
 TrackedScene untracked(std::shared_ptr<const ServoScene> scene);

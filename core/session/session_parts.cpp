@@ -63,6 +63,11 @@ void Session::change(const std::vector<PartId>& ids, Step verb, const std::funct
   }
   if (changed.isEmpty()) return;
   if (finish) finish(next);
+  const std::optional<GroupId> group = scene().movingGroup();
+  const bool isWholeGroup =
+      group && changed.parts.size() == scene().movingParts().size() &&
+      std::ranges::all_of(changed.parts, [&](PartId id) { return scene().isMoving(id); });
+  if (isWholeGroup) changed = {{}, {*group}};
   verb.label += " " + nameOf(scene(), changed);
   commit(std::move(next), std::move(verb));
 }

@@ -23,6 +23,7 @@
 
 #include "core/base/error.h"
 #include "core/math/aabb.h"
+#include "core/proximity/query/broad_phase.h"
 #include "core/scene/document_load.h"
 #include "core/scene/odd_size.h"
 #include "core/scene/refinement.h"
@@ -61,6 +62,35 @@ std::exception_ptr problemOf(const LoadedPart& loaded, const std::filesystem::pa
   if (loaded.problem || loaded.geometry) return loaded.problem;
   return std::make_exception_ptr(
       FileError(file.string(), "it has changed since it was read", "reload it (Ctrl+R), then try again"));
+}
+
+/// Extent along each axis of what a change of the unit scales, in the units of the files: of mesh files as they are, of
+/// documents that change as a whole where their parts are placed.
+glm::dvec3 extentInUnits(const Scene& scene, const std::vector<PartId>& parts) {
+  Aabb box;
+  for (const PartId id : parts) {
+    const Part* part = scene.find(id);
+    if (part == nullptr || part->geometry == nullptr || part->geometry->mesh.bounds().isEmpty()) continue;
+    const Aabb& own = part->geometry->mesh.bounds();
+    const Aabb placed = mayBeInWrongUnit(part->geometry->file) ? boundsOf(own, part->worldFromPart) : own;
+    box.add(placed.lower / part->geometry->unitOfNumbers());
+    box.add(placed.upper / part->geometry->unitOfNumbers());
+  }
+  return box.isEmpty() ? glm::dvec3(0.0) : box.upper - box.lower;
+}
+
+/// Extent of all parts but these, in the world [m]; std::nullopt if there are none.
+std::optional<glm::dvec3> extentOfOthers(const Scene& scene, const std::vector<PartId>& parts) {
+  const std::set<PartId> left(parts.begin(), parts.end());
+  Aabb box;
+  for (const Scene::PartPtr& part : scene.parts()) {
+    if (left.contains(part->id) || part->geometry == nullptr || part->geometry->mesh.bounds().isEmpty())
+      continue;
+    const Aabb placed = boundsOf(part->geometry->mesh.bounds(), part->worldFromPart);
+    box.add(placed.lower);
+    box.add(placed.upper);
+  }
+  return box.isEmpty() ? std::nullopt : std::optional(box.upper - box.lower);
 }
 
 /// True if a part is in both, in different units.
@@ -463,7 +493,6 @@ void PartFiles::changeUnit(const std::vector<PartId>& parts) {
   if (document_.isBusy()) return;
   if (hand_.status().isTaken()) return emit noted(tr("Stop (F6) before you change the unit"));
   QStringList names;
-  Aabb box;
   std::optional<double> present;
   for (const PartId id : parts) {
     const Part* part = session_.scene().find(id);
@@ -476,19 +505,18 @@ void PartFiles::changeUnit(const std::vector<PartId>& parts) {
               "CAD system in another size.")
                .arg(file)});
     }
-    const Aabb& bounds = part->geometry->mesh.bounds();
-    const double unit = part->geometry->unitOfNumbers();
-    if (bounds.isEmpty()) continue;
+    if (part->geometry->mesh.bounds().isEmpty()) continue;
     names << QString::fromStdString(part->name);
-    box.add(bounds.lower / unit);
-    box.add(bounds.upper / unit);
-    if (!present) present = unit;
+    if (!present) present = part->geometry->unitOfNumbers();
   }
   if (!present) return;
-  const std::optional<double> unit = askForOtherUnit(names, box.upper - box.lower, *present, window_);
+  const std::vector<PartId> all = withWholeDocuments(parts);
+  const std::optional<double> unit =
+      askForOtherUnit(names, extentInUnits(session_.scene(), all),
+                      UnitHints{.scene = extentOfOthers(session_.scene(), all)}, *present, window_);
   if (!unit) return;
   std::vector<Wanted> wanted;
-  for (const PartId id : withWholeDocuments(parts)) {
+  for (const PartId id : all) {
     const Part* part = session_.scene().find(id);
     if (part == nullptr || part->geometry == nullptr) continue;
     const double metresPerUnit = *unit / part->geometry->statedUnit;

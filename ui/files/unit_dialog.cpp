@@ -42,6 +42,18 @@ constexpr std::array<MeshUnit, 7> kMeshUnits = {
      {"ft", QT_TRANSLATE_NOOP("QObject", "Feet"), 0.3048},
      {"m", QT_TRANSLATE_NOOP("QObject", "Metres"), 1.0}}};
 
+/// A unit chosen before is offered only if it gives a size within this factor of the scene's parts: what is farther off
+/// is pointed out as wrong once it is in the scene.
+constexpr double kPlausibleFactor = 1000.0;
+/// The same in an empty scene: parts that a hand can fit [m].
+constexpr double kLeastPlausible = 5e-3, kMostPlausible = 5.0;
+
+/// @param size  Diagonal of the box around what is added [m].
+bool isPlausible(double size, const UnitHints& hints) {
+  if (!hints.scene) return size >= kLeastPlausible && size <= kMostPlausible;
+  return size * kPlausibleFactor >= hints.leastSize && size <= kPlausibleFactor * hints.mostSize;
+}
+
 /// Units, each with the size that it gives. There is no answer before the sizes are shown.
 class UnitDialog : public QDialog {
  public:
@@ -54,7 +66,8 @@ class UnitDialog : public QDialog {
   /// Marks a unit that has a row as the present one.
   void markPresent(double metresPerUnit);
   /// Shows known sizes to compare with, below the units: of the scene, if there is anything in it, and of a hand.
-  void showKnownSizes(const std::optional<glm::dvec3>& scene);
+  /// @param sceneText  Text for the scene's size, with a place for it.
+  void showKnownSizes(const std::optional<glm::dvec3>& scene, const QString& sceneText);
   /// Shows the sizes, and takes an answer from now on.
   /// @param extent  In the files' units.
   void showSizes(const glm::dvec3& extent);
@@ -156,9 +169,9 @@ void UnitDialog::markPresent(double metresPerUnit) {
   if (row != nullptr) row->choice->setText(QObject::tr("%1 (now)").arg(row->choice->text()));
 }
 
-void UnitDialog::showKnownSizes(const std::optional<glm::dvec3>& scene) {
+void UnitDialog::showKnownSizes(const std::optional<glm::dvec3>& scene, const QString& sceneText) {
   QString text = QObject::tr("For comparison: a hand is about %1 long").arg(formatLength(kHandLength));
-  if (scene) text += QObject::tr("; what is in the scene, %1").arg(formatExtent(*scene));
+  if (scene) text += sceneText.arg(formatExtent(*scene));
   known_->setText(text + '.');
 }
 
@@ -181,8 +194,9 @@ void UnitDialog::measure(const QStringList& files, const UnitHints& hints) {
       [paths, extent](const ProgressCallback& progress) { *extent = extentOfMeshFiles(paths, progress); },
       [this, extent, hints](const std::exception_ptr& error) {
         if (error || !*extent) return QDialog::accept();
-        if (!isChosen_ && !hints.chosen)
-          check(likelyMeshUnit(glm::length(**extent), hints.leastSize, hints.mostSize));
+        const double size = glm::length(**extent);
+        const bool isKnown = hints.chosen && isPlausible(*hints.chosen * size, hints);
+        if (!isChosen_ && !isKnown) check(likelyMeshUnit(size, hints.leastSize, hints.mostSize));
         showSizes(**extent);
       });
 }
@@ -211,18 +225,18 @@ QString questionAboutParts(const QStringList& parts) {
 std::optional<double> askForUnit(const QStringList& files, const UnitHints& hints, QWidget* parent) {
   constexpr double kMillimetre = 1e-3;
   UnitDialog dialog(questionAbout(files), QObject::tr("Add"), parent);
-  dialog.showKnownSizes(hints.scene);
+  dialog.showKnownSizes(hints.scene, QObject::tr("; what is in the scene, %1"));
   dialog.check(hints.chosen.value_or(kMillimetre));
   dialog.measure(files, hints);
   return dialog.exec() == QDialog::Accepted ? std::optional(dialog.metresPerUnit()) : std::nullopt;
 }
 
 std::optional<double> askForOtherUnit(const QStringList& parts, const glm::dvec3& extent,
-                                      double metresPerUnit, QWidget* parent) {
+                                      const UnitHints& hints, double metresPerUnit, QWidget* parent) {
   UnitDialog dialog(questionAboutParts(parts), QObject::tr("Change"), parent);
   dialog.check(metresPerUnit);
   dialog.markPresent(metresPerUnit);
-  dialog.showKnownSizes({});
+  dialog.showKnownSizes(hints.scene, QObject::tr("; what else is in the scene, %1"));
   dialog.showSizes(extent);
   if (dialog.exec() != QDialog::Accepted) return std::nullopt;
   return dialog.metresPerUnit();

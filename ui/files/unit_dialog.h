@@ -20,7 +20,7 @@ struct UnitHints {
   /// Diagonals of the smallest and the largest part in the scene [m], or a hand's length if there is none: the unit that
   /// is offered gives a size near these (likelyMeshUnit()).
   double leastSize = kHandLength, mostSize = kHandLength;
-  /// Offered instead: metres per unit that the user chose for such files before.
+  /// Offered instead if it gives a plausible size: metres per unit that the user chose for such files before.
   std::optional<double> chosen = {};
 };
 
@@ -33,10 +33,12 @@ std::optional<double> askForUnit(const QStringList& files, const UnitHints& hint
 
 /// Asks for another unit of parts that are in the scene. Shows the size that each unit gives them.
 /// @param parts          Their names, for the question.
-/// @param extent         Along each axis of the mesh files, in the files' units.
+/// @param extent         Along each axis of the mesh files, in the files' units; of documents that change as a whole, of
+///                       what they place.
+/// @param hints          The extent of the other parts is shown for comparison.
 /// @param metresPerUnit  Of the present unit.
 /// @return Metres per unit; std::nullopt if the user cancels.
 std::optional<double> askForOtherUnit(const QStringList& parts, const glm::dvec3& extent,
-                                      double metresPerUnit, QWidget* parent);
+                                      const UnitHints& hints, double metresPerUnit, QWidget* parent);
 
 }  // namespace nearfit::ui

@@ -10,6 +10,8 @@
 namespace nearfit::ui {
 
 MinDistance minDistanceOf(const ServoSnapshot& snapshot) noexcept {
+  // The part may be inside another: then the distance of its surface is none.
+  if (snapshot.isOverlapUnknown) return {0.0, true, snapshot.overlappingCount > 0};
   if (snapshot.overlappingCount == 0) return {snapshot.distance, snapshot.isDistanceBound, false};
   if (snapshot.overlappingCount > ServoSnapshot::kMaxOverlapping)
     return {std::numeric_limits<double>::quiet_NaN(), false, true};

@@ -97,7 +97,10 @@ QString PartCell::toolTip(int column) const {
     case PartsModel::Joints:
       return jointText();
     case PartsModel::Findings:
-      return badge_ != nullptr ? tr("%1\nClick to see where, and to repair it").arg(badge_->text) : QString();
+      if (badge_ == nullptr) return {};
+      return (badge_->canBeRepaired ? tr("%1\nClick to see where, and to repair it")
+                                    : tr("%1\nClick to see where, and why it cannot be repaired"))
+          .arg(badge_->text);
     default:
       return description();
   }

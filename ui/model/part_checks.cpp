@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/mesh/check/unrepaired.h"
 #include "core/parallel/low_priority.h"
 #include "core/scene/part_check.h"
 #include "ui/model/hand_state.h"
@@ -18,16 +19,24 @@ constexpr int kGather = 100;
 /// Triangles that are checked in one go: some milliseconds.
 constexpr std::size_t kTrianglesAtOnce = 20'000;
 
-QString badgeText(const MeshCheck& check) {
+FindingsBadge badgeOf(const MeshCheck& check, FindingSeverity worst, const MeshRepairs& made) {
+  FindingsBadge badge;
+  badge.worst = worst;
+  const std::vector<UnrepairedKind> unrepaired = unrepairedKinds(check, made);
   QStringList lines;
   for (std::size_t i = 0; i < kFindingKinds; ++i) {
     const auto kind = static_cast<FindingKind>(i);
     std::uint64_t places = check.total(kind).places;
     for (const MeshFinding& finding : check.findings)
       places -= finding.kind == kind && finding.isMended ? 1 : 0;
-    if (places > 0) lines << PartChecks::tr("%1: %L2").arg(nameOf(kind)).arg(places);
+    if (places == 0) continue;
+    lines << PartChecks::tr("%1: %L2").arg(nameOf(kind)).arg(places);
+    const bool isLeft = std::ranges::any_of(
+        unrepaired, [kind](const UnrepairedKind& left) { return left.kind == kind && left.areAll; });
+    badge.canBeRepaired = badge.canBeRepaired || !isLeft;
   }
-  return lines.join('\n');
+  badge.text = lines.join('\n');
+  return badge;
 }
 
 }  // namespace
@@ -73,7 +82,7 @@ std::map<PartId, FindingsBadge> PartChecks::badges() const {
     const std::optional<FindingSeverity> worst = check ? check->worst() : std::nullopt;
     if (!worst) continue;
     FindingsBadge& badge = known[check.get()];
-    if (badge.text.isEmpty()) badge = {*worst, badgeText(*check)};
+    if (badge.text.isEmpty()) badge = badgeOf(*check, *worst, part->geometry->repairs);
     badges.emplace(part->id, badge);
   }
   return badges;

@@ -20,6 +20,7 @@ class SceneWork;
 struct FindingsBadge {
   FindingSeverity worst{};
   QString text;
+  bool canBeRepaired = false;  ///< A repair mends some of them.
   bool operator==(const FindingsBadge&) const = default;
 };
 

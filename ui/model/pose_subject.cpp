@@ -4,6 +4,7 @@
 
 #include "core/placing/pivot.h"
 #include "core/scene/moving_body.h"
+#include "core/scene/scene_tree.h"
 #include "ui/model/hand_state.h"
 #include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
@@ -32,12 +33,23 @@ PoseSubject poseSubjectOf(const Scene& scene, const Selection& selection, const 
   const std::vector<PartId>& selected = selection.parts();
   const bool isOfGroup = hand.holdsGroup() && areMoving(scene, selected);
   if (isOfGroup || (!selected.empty() && areMovingGroup(scene, selected))) return groupInHand(scene);
-  if (selected.empty() && hand.part()) return {{*hand.part()}};
-  return {selected};
+  if (selected.empty() && scene.movingGroup()) return groupInHand(scene);
+  if (selected.empty() && scene.movingPart()) return {{*scene.movingPart()}};
+  PoseSubject subject{selected};
+  if (!selected.empty()) {
+    const PartId lead = leadOf(scene, selection);
+    std::erase(subject.parts, lead);
+    subject.parts.push_back(lead);
+  }
+  return subject;
 }
 
-PartId leadOf(const Scene& scene, const std::vector<PartId>& parts) {
-  return areMovingGroup(scene, parts) ? *scene.movingPart() : parts.back();
+PartId leadOf(const Scene& scene, const Selection& selection) {
+  if (areMovingGroup(scene, selection.parts())) return *scene.movingPart();
+  const SceneNodes outer = outermost(scene, selection.nodes());
+  const bool isOneGroup = outer.parts.empty() && outer.groups.size() == 1;
+  return isOneGroup ? leadOfGroup(scene, outer.groups.front()).value_or(selection.parts().back())
+                    : selection.parts().back();
 }
 
 glm::dvec3 pivotInLead(const Scene& scene, const PoseSubject& subject, const ShownPoses& poses) {

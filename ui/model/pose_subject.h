@@ -24,13 +24,13 @@ struct PoseSubject {
   }
 };
 
-/// Returns the selected parts, or what the servo moves while none is selected. All parts of the moving group together
-/// are the group; while the servo moves it, any of them stands for it. O(n) in the parts of the scene.
+/// Returns the selected parts, or what is in hand, felt or not, while none is selected. All parts of the moving group
+/// together are the group; while the servo moves it, any of them stands for it. O(n) in the parts of the scene.
 PoseSubject poseSubjectOf(const Scene& scene, const Selection& selection, const HandState& hand);
-/// Returns the part whose pose stands for all of these: the one that leads the moving group if they are that group, else
-/// the last. O(n) in the parts of the scene.
-/// @param parts  Without duplicates; not empty.
-PartId leadOf(const Scene& scene, const std::vector<PartId>& parts);
+/// Returns the part whose pose stands for all that are selected: of one group the part that leads it, in hand or not
+/// (leadOfGroup()), else the one selected last. O(n) in the parts of the scene.
+/// @param selection  Has parts.
+PartId leadOf(const Scene& scene, const Selection& selection);
 
 /// Returns the pivot of the subject in the frame of the part that leads it [m]: the one that its parts share, else their
 /// centre of mass; of the group in hand that of its visible parts.

@@ -192,13 +192,16 @@ void NoteBar::paintEvent(QPaintEvent* event) {
   painter.drawText(room(), static_cast<int>(Qt::AlignLeading | Qt::AlignVCenter) | Qt::TextSingleLine, text);
 }
 
-StatusReadout::StatusReadout(const HandState& hand, QStatusBar* bar) : QObject(bar) {
+StatusReadout::StatusReadout(const HandState& hand, QStatusBar* bar) : QObject(bar), bar_(bar) {
   auto* row = new ReadoutRow(bar);
+  row_ = row;
   rate_ = row->addLabel(QStringLiteral("statusRate"), tr("Servo 1000 Hz"));
   lateness_ = row->addLabel(QStringLiteral("statusLateness"), tr("Late 0.00 ms (p99)"));
   minima_ = row->addLabel(QStringLiteral("statusMinima"), tr("LMDs 0,000"));
   distance_ = row->addLabel(QStringLiteral("statusDistance"), tr("Min distance 0000 mm"));
   bar->addPermanentWidget(row);
+  bar->installEventFilter(this);
+  connect(bar, &QStatusBar::messageChanged, this, &StatusReadout::makeRoom);
   connect(&hand, &HandState::statusChanged, this, &StatusReadout::showStatus);
   connect(&hand, &HandState::snapshotDrawn, this,
           [this](const ServoSnapshot& snapshot) { showSnapshot(snapshot, true); });
@@ -217,6 +220,7 @@ void StatusReadout::showStatus(const ServoStatus& status) {
                                        : QString());
   showText(*lateness_,
            status.isRunning ? tr("Late %1 (p99)").arg(formatDuration(status.latenessP99)) : tr("Late –"));
+  setIdle(!status.isRunning, isWithoutNumbers_);
 }
 
 void StatusReadout::showSnapshot(const ServoSnapshot& snapshot, bool isFelt) {
@@ -224,6 +228,7 @@ void StatusReadout::showSnapshot(const ServoSnapshot& snapshot, bool isFelt) {
   setPresent(*distance_, isFelt);
   showText(*minima_, tr("LMDs %1").arg(formatMinima(snapshot.lmdCount, snapshot.isTruncated)));
   showText(*distance_, tr("Min distance %1").arg(formatMinDistance(minDistanceOf(snapshot))));
+  setIdle(isServoOff_, false);
 }
 
 void StatusReadout::clearSnapshot() {
@@ -231,6 +236,36 @@ void StatusReadout::clearSnapshot() {
   setPresent(*distance_, true);
   showText(*minima_, tr("LMDs –"));
   showText(*distance_, tr("Min distance –"));
+  setIdle(isServoOff_, true);
+}
+
+void StatusReadout::setIdle(bool isServoOff, bool isWithoutNumbers) {
+  const bool wasIdle = isIdle();
+  isServoOff_ = isServoOff;
+  isWithoutNumbers_ = isWithoutNumbers;
+  if (isIdle() != wasIdle) makeRoom();
+}
+
+void StatusReadout::makeRoom() {
+  constexpr int kMargins = 18;
+  const QString note = bar_->currentMessage();
+  const bool wasShown = !row_->isHidden();
+  row_->show();
+  // Dashes tell nothing that a note should be cut off for.
+  if (isIdle() && !note.isEmpty()) {
+    bar_->layout()->activate();
+    if (bar_->fontMetrics().horizontalAdvance(note) > row_->x() - kMargins) row_->hide();
+  }
+  if (row_->isHidden() != wasShown) return;
+  bar_->layout()->activate();
+  bar_->update();
+}
+
+bool StatusReadout::eventFilter(QObject* watched, QEvent* event) {
+  const bool isHandled = QObject::eventFilter(watched, event);
+  // Once the bar has laid out its widgets.
+  if (event->type() == QEvent::Resize) QTimer::singleShot(0, this, &StatusReadout::makeRoom);
+  return isHandled;
 }
 
 }  // namespace nearfit::ui

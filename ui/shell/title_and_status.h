@@ -74,7 +74,8 @@ class NoteBar : public QStatusBar {
   Subscription changes_;
 };
 
-/// Servo rate, lateness, number of minima and min distance, at the right of the status bar.
+/// Servo rate, lateness, number of minima and min distance, at the right of the status bar. While there are no numbers to
+/// show, they give way to a note that would be elided.
 class StatusReadout : public QObject {
   Q_OBJECT
 
@@ -89,7 +90,16 @@ class StatusReadout : public QObject {
   void showSnapshot(const ServoSnapshot& snapshot, bool isFelt);
   /// Shows dashes instead of minima and distance.
   void clearSnapshot();
+  /// True if there is no number to show.
+  bool isIdle() const noexcept { return isServoOff_ && isWithoutNumbers_; }
+  void setIdle(bool isServoOff, bool isWithoutNumbers);
+  /// Hides the numbers if they are none and the bar's note needs their room; else shows them.
+  void makeRoom();
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
+  QStatusBar* bar_;
+  QWidget* row_ = nullptr;
+  bool isServoOff_ = true, isWithoutNumbers_ = true;
   QLabel *rate_ = nullptr, *lateness_ = nullptr, *minima_ = nullptr, *distance_ = nullptr;
 };
 

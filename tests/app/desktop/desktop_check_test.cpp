@@ -87,6 +87,7 @@ void DesktopCheckTest::aBadgeMarksThePartWithFindings() {
   QVERIFY(f.badge(0).isNull());
   QVERIFY(!f.badge(1).isNull());
   QVERIFY2(f.badgeText(1).startsWith(QStringLiteral("Open edges: 1\n")), qPrintable(f.badgeText(1)));
+  QVERIFY2(f.badgeText(1).endsWith(QStringLiteral("and to repair it")), qPrintable(f.badgeText(1)));
   // Without the part there is nothing to mark.
   f.d.session().deletePart(f.d.partId("open"));
   QTRY_VERIFY(f.d.partsView()->isColumnHidden(ui::PartsModel::Findings));
@@ -282,6 +283,9 @@ void DesktopCheckTest::whatCannotBeRepairedIsSaidWithTheReason() {
   QTest::mouseClick(f.d.widget<QPushButton>("repairPart"), Qt::LeftButton);
   QTRY_VERIFY(!f.isOpen("crossing"));
   QTRY_VERIFY(f.d.text("checkUnrepaired").startsWith(crossing));
+  // Its triangle in the tree offered a repair all the same.
+  QTRY_VERIFY2(f.badgeText(2).endsWith(QStringLiteral("why it cannot be repaired")),
+               qPrintable(f.badgeText(2)));
   // For what can be repaired there is no such line.
   f.d.window().selection().select(f.d.partId("open"));
   QTRY_COMPARE(f.table->model()->rowCount(), 1);

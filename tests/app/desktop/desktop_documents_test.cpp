@@ -181,7 +181,7 @@ void DesktopDocumentsTest::a3mfThatStatesAWrongUnitIsCorrectedAsAWhole() {
   const std::size_t steps = d.session().historyIndex();
   d.window().selection().select(d.partId("far"));
   QVERIFY(d.action("changeUnit")->isEnabled());
-  QString present, inMillimetres, inInches;
+  QString present, inMillimetres, inInches, known;
   DialogAnswers answers;
   answers.expect(QStringLiteral("unitDialog"), [&](QDialog& question) {
     for (const QRadioButton* choice : question.findChildren<QRadioButton*>()) {
@@ -189,6 +189,7 @@ void DesktopDocumentsTest::a3mfThatStatesAWrongUnitIsCorrectedAsAWhole() {
     }
     inMillimetres = question.findChild<QLabel*>(QStringLiteral("size-mm"))->text();
     inInches = question.findChild<QLabel*>(QStringLiteral("size-in"))->text();
+    known = question.findChild<QLabel*>(QStringLiteral("knownSizes"))->text();
     answerUnit(&question, "in");
     return true;
   });
@@ -196,8 +197,10 @@ void DesktopDocumentsTest::a3mfThatStatesAWrongUnitIsCorrectedAsAWhole() {
   QTRY_VERIFY(isNear(widthOf(d.part("far")), 0.1016, 1e-12));
   QCOMPARE(answers.faults(), QStringList());
   QCOMPARE(present, QStringLiteral("unit-mm"));
-  QCOMPARE(inMillimetres, QStringLiteral("4 × 2 × 1 mm"));
-  QCOMPARE(inInches, QStringLiteral("101.6 × 50.8 × 25.4 mm"));
+  // Both blocks where they are placed, 10 units apart.
+  QCOMPARE(inMillimetres, QStringLiteral("14 × 2 × 1 mm"));
+  QCOMPARE(inInches, QStringLiteral("355.6 × 50.8 × 25.4 mm"));
+  QVERIFY2(!known.contains(QStringLiteral("scene")), "nothing else is there to compare with");
   QVERIFY2(isNear(widthOf(d.part("near")), 0.1016, 1e-12), "it changes as a whole");
   QVERIFY(isNear(d.part("far").worldFromPart.translation.x, 0.254, 1e-12));
   QCOMPARE(d.session().historyIndex(), steps + 1);

@@ -47,6 +47,7 @@ class DesktopGroupInHandTest : public QObject {
   void itsPartsMoveAsOneAndAreKeptAsOneStep();
   void itsPartsAreNotPlacedAloneWhileItIsFelt();
   void withoutASelectionTheNumbersAreThoseOfTheGroup();
+  void theNumbersOfAGroupAreThoseOfOnePartInHandOrNot();
   void theNumbersOfTheWholeGroupAreThoseOfOneBody();
   void typedNumbersMoveTheWholeGroupAboutItsCentreOfMass();
   void anotherThingInHandEndsTheGroup();
@@ -128,8 +129,27 @@ void DesktopGroupInHandTest::withoutASelectionTheNumbersAreThoseOfTheGroup() {
   // Between the two cubes.
   QTRY_COMPARE(d.text("massCentre"), QStringLiteral("Centre of mass 19.000, 0.000, 36.000 mm"));
   d.choose("stop");
-  QTRY_COMPARE(d.text("poseHeading"), QStringLiteral("No part selected"));
+  QTRY_VERIFY(!d.application.servo().isRunning());
+  QCOMPARE(d.text("poseHeading"), QStringLiteral("Pair"));
+  QVERIFY(d.widget<QDoubleSpinBox>("positionX")->isEnabled());
+  d.session().setMovingPart(std::nullopt);
+  QCOMPARE(d.text("poseHeading"), QStringLiteral("No part selected"));
   QVERIFY(!d.widget<QLabel>("massCentre")->isVisible());
+}
+
+/// They were those of its last part until it was taken in hand.
+void DesktopGroupInHandTest::theNumbersOfAGroupAreThoseOfOnePartInHandOrNot() {
+  PairInHand d;
+  d.session().movePart(d.lead, {{1, 0, 0, 0}, {0.002, 0.0, 0.0}});
+  d.window().selection().set({d.lead, d.other}, {d.group});
+  const auto* x = d.widget<QDoubleSpinBox>("positionX");
+  QVERIFY(isNear(x->value(), 2.0, 1e-9));
+  QVERIFY(d.widget<QLabel>("poseHeading")->toolTip().contains(QStringLiteral("moving")));
+  d.session().setMovingGroup(d.group);
+  QVERIFY(isNear(x->value(), 2.0, 1e-9));
+  d.session().setMovingPart(std::nullopt);
+  d.type<QDoubleSpinBox>("positionX", "3");
+  QVERIFY(isNear(d.x(d.lead), 0.003, 1e-9) && isNear(d.x(d.other), 0.031, 1e-9));
 }
 
 /// They were those of the part selected last, under the name of the group.

@@ -181,7 +181,11 @@ void DesktopHandTest::withoutASelectionTheNumbersAreThoseOfThePartInHand() {
   QTest::keyClick(&m.view(), Qt::Key_PageUp);
   QTRY_VERIFY(std::abs(z->value() - 2.1) < 1e-3);
   m.d.choose("stop");
-  QTRY_COMPARE(m.d.text("poseHeading"), QStringLiteral("No part selected"));
+  QTRY_VERIFY(!m.d.application.servo().isRunning());
+  QCOMPARE(m.d.text("poseHeading"), QStringLiteral("moving"));
+  QVERIFY(z->isEnabled());
+  m.d.session().setMovingPart(std::nullopt);
+  QCOMPARE(m.d.text("poseHeading"), QStringLiteral("No part selected"));
   QVERIFY(!z->isEnabled());
 }
 

@@ -159,7 +159,7 @@ void DesktopMovableTest::aSelectedGroupIsNamedByItsName() {
   const GroupId group = d.session().group({{fixed, moving}, {}}, "Frame");
   d.window().selection().set({fixed, moving}, {group});
   QCOMPARE(d.text("poseHeading"), QStringLiteral("Frame"));
-  QVERIFY(d.widget<QLabel>("poseHeading")->toolTip().contains(QStringLiteral("moving")));
+  QVERIFY(d.widget<QLabel>("poseHeading")->toolTip().contains(QStringLiteral("of fixed")));
   d.window().selection().set({fixed, moving});
   QCOMPARE(d.text("poseHeading"), QStringLiteral("moving and 1 more"));
 }

@@ -79,6 +79,7 @@ class DesktopUnitsTest : public QObject {
   void sizesAreInTheUnitOfLengthShown();
   void theUnitNearestToTheSizeOfAHandOrTheScenesPartsIsOffered();
   void theUnitChosenBeforeForTheFolderOrTheTypeIsOffered();
+  void theUnitChosenBeforeIsNotOfferedWhereItGivesAnOddSize();
   void filesThatCannotBeReadAreNotAskedAbout();
   void theCommandLineTakesTheSpellingOfTheOtherProgram();
   void anUnattendedRunRefusesToGuessAUnit();
@@ -218,6 +219,34 @@ void DesktopUnitsTest::theUnitChosenBeforeForTheFolderOrTheTypeIsOffered() {
   QCOMPARE(offeredFor(writeObj(folder("c") / "one.obj"), "in"), QStringLiteral("unit-in"));
 }
 
+/// A part of 1.5 mm came of micrometres that were chosen for other files of the folder.
+void DesktopUnitsTest::theUnitChosenBeforeIsNotOfferedWhereItGivesAnOddSize() {
+  DesktopDriver d;
+  const auto offeredFor = [&](const char* name, double edge, const char* answer) {
+    const QString file = writeOff(d.folder.path() / name, boxMesh(glm::dvec3(edge)));
+    QString offered;
+    whenAsked([&](QDialog* question) {
+      offered = offeredBy(question);
+      if (answer == nullptr) return question->reject();
+      answerUnit(question, answer);
+    });
+    drop(d.window(), {file});
+    (void)QTest::qWaitFor([&] { return !offered.isEmpty(); }, kQtPatienceMs);
+    return offered;
+  };
+  // 80,000 units along each axis: 80 mm in micrometres.
+  QCOMPARE(offeredFor("large.off", 80.0, "um"), QStringLiteral("unit-um"));
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  // 1500 units: 1.5 mm in micrometres, which is within a factor of 1000 of the 80 mm; in an empty scene it is odd.
+  QCOMPARE(offeredFor("small.off", 1.5, nullptr), QStringLiteral("unit-um"));
+  d.session().reset();
+  QCOMPARE(offeredFor("small.off", 1.5, nullptr), QStringLiteral("unit-mm"));
+  QCOMPARE(offeredFor("large.off", 80.0, "um"), QStringLiteral("unit-um"));
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  // 50 units: 0.05 mm in micrometres, more than 1000 times smaller than the part.
+  QCOMPARE(offeredFor("tiny.off", 0.05, nullptr), QStringLiteral("unit-mm"));
+}
+
 void DesktopUnitsTest::filesThatCannotBeReadAreNotAskedAbout() {
   DesktopDriver d;
   QStringList told;
@@ -323,6 +352,9 @@ void DesktopUnitsTest::anotherUnitIsAnImportInItAndOneStep() {
   whenAsked([](QDialog* question) {
     QCOMPARE(sizeIn(question, "mm"), QStringLiteral("40 × 40 × 40 mm"));
     QCOMPARE(sizeIn(question, "in"), QStringLiteral("1.016 × 1.016 × 1.016 m"));
+    QVERIFY(question->findChild<QLabel*>(QStringLiteral("knownSizes"))
+                ->text()
+                .contains(QStringLiteral("what else is in the scene, 20 × 20 × 20 mm")));
     const auto* present = question->findChild<QRadioButton*>(QStringLiteral("unit-mm"));
     QVERIFY(present->isChecked() && present->text().contains(QStringLiteral("now")));
     answerUnit(question, "in");

@@ -191,6 +191,18 @@ TEST(Clearance, WhatATickKnowsIsTakenOverAndTheRestStays) {
   snapshot->overlappingCount = 1;
   updateFrom(*snapshot, rows);
   EXPECT_EQ(rows[3].distance, 9.0) << "overlapping: the next search tells";
+
+  snapshot->overlappingCount = ServoSnapshot::kMaxOverlapping + 1;
+  rows[0] = row(1, true);
+  rows[0].overlap = InterferenceKind::SurfacesMeet;
+  updateFrom(*snapshot, rows);
+  EXPECT_TRUE(rows[0].isOverlapping()) << "it may be one of those that are not named";
+
+  snapshot->overlappingCount = 0;
+  snapshot->isOverlapUnknown = true;
+  updateFrom(*snapshot, rows);
+  EXPECT_TRUE(rows[0].isOverlapping()) << "surfaces that pass through each other have minima too";
+  EXPECT_EQ(rows[0].distance, 9.0);
 }
 
 TEST(Clearance, WhereATickKnowsOnlyABoundItIsTakenOverAsOne) {

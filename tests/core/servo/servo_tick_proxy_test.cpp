@@ -74,6 +74,34 @@ class ServoTickWithProxy : public testing::Test {
   const std::unique_ptr<ServoSnapshot> snapshot_ = std::make_unique<ServoSnapshot>();
 };
 
+/// A cube that springs let into the floor was said to be clear of it by the distance of the surfaces.
+TEST_F(ServoTickWithProxy, SpringsSayWhatThePartOverlapsAndWhereThatIsNotKnown) {
+  parameters_.haptics.mode = HapticMode::Springs;
+  // The cube's bottom is 10 mm above the floor.
+  const ServoSnapshot& s = hold(at({0.0, 0.0, 0.11}), 20);
+  EXPECT_EQ(s.overlappingCount, 0U);
+  EXPECT_FALSE(s.isOverlapUnknown);
+  EXPECT_NEAR(s.distance, 0.01, 1e-12);
+
+  // 30 mm into it at once: the search ahead has not seen that yet.
+  tick(at({0.0, 0.0, 0.07}));
+  EXPECT_TRUE(s.isOverlapUnknown);
+  hold(at({0.0, 0.0, 0.07}), 20);
+  ASSERT_EQ(s.overlappingCount, 1U);
+  EXPECT_EQ(s.overlapping[0], PartId{2});
+  EXPECT_FALSE(s.isOverlapUnknown);
+
+  // Wholly inside, where no surface is within the cutoff.
+  hold(at({0.0, 0.0, -0.5}), 20);
+  EXPECT_EQ(s.overlappingCount, 1U);
+  EXPECT_FALSE(s.isOverlapUnknown);
+
+  hold(at({0.0, 0.0, 0.12}), 20);
+  EXPECT_EQ(s.overlappingCount, 0U);
+  EXPECT_FALSE(s.isOverlapUnknown);
+  EXPECT_NEAR(s.distance, 0.02, 1e-12);
+}
+
 TEST_F(ServoTickWithProxy, AJointIsFeltAsASpringAcrossItAndNotAlongIt) {
   auto scene = std::make_shared<ServoScene>(*scene_);
   const RigidTransform start = scene->moving.worldFromPart;

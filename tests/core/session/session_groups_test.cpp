@@ -367,7 +367,7 @@ TEST_F(SessionGroups, AGroupIsTakenInHandAndMovedAsOneStep) {
   EXPECT_EQ(session_.undoText(), "Make Pair the moving group") << "once more is no step";
   const RigidTransform aFromB = part(a_).worldFromPart.inverse() * part(b_).worldFromPart;
   const RigidTransform pose{glm::dquat(0.6, 0.0, 0.8, 0.0), {1.0, 2.0, 3.0}};
-  EXPECT_EQ(stepOf([&] { session_.moveMoving(pose, "Feel"); }), "Feel 2 parts");
+  EXPECT_EQ(stepOf([&] { session_.moveMoving(pose, "Feel"); }), "Feel Pair");
   EXPECT_EQ(part(a_).worldFromPart.translation, pose.translation);
   const RigidTransform expected = pose * aFromB;
   EXPECT_LT(glm::distance(part(b_).worldFromPart.translation, expected.translation), 1e-13);

@@ -36,6 +36,7 @@ class MinDistanceTest : public QObject {
  private slots:
   void partsThatAreOverlappedAreLeftOutAndItSaysSo();
   void aMissingMinimumLeavesABound();
+  void whereOverlapIsNotKnownNoDistanceOfSurfacesIsShown();
 };
 
 void MinDistanceTest::partsThatAreOverlappedAreLeftOutAndItSaysSo() {
@@ -59,6 +60,16 @@ void MinDistanceTest::aMissingMinimumLeavesABound() {
   QCOMPARE(shownOf(*snapshot), QStringLiteral("at least 5.00 mm to others"));
   snapshot->overlappingCount = 0;
   QCOMPARE(shownOf(*snapshot), QStringLiteral("at least 5.00 mm"));
+}
+
+/// Springs let parts pass through each other.
+void MinDistanceTest::whereOverlapIsNotKnownNoDistanceOfSurfacesIsShown() {
+  const auto snapshot = overlappedSnapshot();
+  snapshot->overlappingCount = 0;
+  snapshot->isOverlapUnknown = true;
+  const ui::MinDistance shown = ui::minDistanceOf(*snapshot);
+  QCOMPARE(shown.distance, 0.0);
+  QVERIFY(shown.isBound && !shown.isOfRest);
 }
 
 NEARFIT_QT_SUITE(MinDistanceTest, test::runQtTest<MinDistanceTest>)

@@ -27,6 +27,7 @@ class TitleAndStatusTest : public QObject {
   void aNoteEndsWithTheStateThatItIsAbout();
   void aNoteEndsWhenTheNextCommandStarts();
   void aNoteThatIsTooLongIsElidedAndItsToolTipIsAll();
+  void aLongNoteTakesTheRoomOfNumbersThatAreNotThere();
 };
 
 void TitleAndStatusTest::aMinDistanceThatIsOnlyABoundIsSaidToBeOne() {
@@ -129,6 +130,39 @@ void TitleAndStatusTest::aNoteThatIsTooLongIsElidedAndItsToolTipIsAll() {
   QCOMPARE(QToolTip::text(), text);
   bar.note(QStringLiteral("Short"));
   QCOMPARE(bar.shownText(), QStringLiteral("Short"));
+}
+
+/// It had 420 of 1388 pixels, beside four dashes.
+void TitleAndStatusTest::aLongNoteTakesTheRoomOfNumbersThatAreNotThere() {
+  Session session;
+  ui::ShownPoses poses(session);
+  ui::HandState hand(session, poses);
+  ui::NoteBar bar(session);
+  const ui::StatusReadout readout(hand, &bar);
+  const auto* rate = bar.findChild<QLabel*>(QStringLiteral("statusRate"));
+  bar.resize(900, 24);
+  bar.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&bar));
+  QTRY_VERIFY(rate->isVisible());
+  bar.note(QStringLiteral("Short"));
+  QVERIFY(rate->isVisible());
+  // As wide as fits into the bar, but not beside the numbers.
+  QString text = QStringLiteral("bolt");
+  while (bar.fontMetrics().horizontalAdvance(text) < 800)
+    text += QStringLiteral(" plate");
+  bar.note(text);
+  QTRY_VERIFY(!rate->isVisible());
+  QTRY_COMPARE(bar.shownText(), text);
+  bar.clearMessage();
+  QTRY_VERIFY(rate->isVisible());
+  // Numbers stay.
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  snapshot->distance = 0.005;
+  emit hand.snapshotDrawn(*snapshot);
+  bar.note(text);
+  QTest::qWait(20);
+  QVERIFY(bar.findChild<QLabel*>(QStringLiteral("statusDistance"))->isVisible());
+  QVERIFY(bar.shownText() != text);
 }
 
 NEARFIT_QT_SUITE(TitleAndStatusTest, test::runQtTest<TitleAndStatusTest>)

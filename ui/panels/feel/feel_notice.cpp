@@ -85,6 +85,8 @@ QString FeelNotice::textFor(const ServoSnapshot& snapshot, const Scene& scene) c
 
 QString FeelNotice::overlapText(const ServoSnapshot& snapshot, const Scene& scene) {
   const QString names = namesOf(snapshot, scene);
+  if (snapshot.mode == HapticMode::Springs)
+    return tr("Overlaps %1. Springs do not keep parts apart.").arg(names);
   if (snapshot.overlappingCount == 1)
     return tr("Overlaps %1, which is not felt until the two are apart.").arg(names);
   return scene.movingGroup()

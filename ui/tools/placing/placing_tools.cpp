@@ -169,7 +169,7 @@ std::optional<GizmoFrame> PlacingTools::frame() const {
   frame.pivot = given ? *given : centreOfMass(parts);
   if (!actions_->localAxes->isChecked()) return frame;
   // The pose panel shows the part that leads, so use its axes too.
-  const Part& lead = session_.scene().get(leadOf(session_.scene(), selection_.parts()));
+  const Part& lead = session_.scene().get(leadOf(session_.scene(), selection_));
   frame.axes = glm::mat3_cast(view_.poses().poseOf(lead).rotation);
   return frame;
 }

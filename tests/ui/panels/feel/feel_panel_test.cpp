@@ -25,6 +25,7 @@ class FeelPanelTest : public QObject {
   void aLimitIsTheDevicesOnlyIfThereIsOne();
   void longTextsDoNotWidenThePanelBeyondItsDock();
   void overlapsOfAGroupAreOfTheGroup();
+  void overlapsWithSpringsAreNotSaidToBeUnfelt();
 };
 
 void FeelPanelTest::aMinDistanceThatIsOnlyABoundIsSaidToBeOne() {
@@ -122,6 +123,22 @@ void FeelPanelTest::overlapsOfAGroupAreOfTheGroup() {
   scene.setMovingGroup(group);
   panel.showSnapshot(*snapshot, scene);
   QVERIFY2(notice->text().endsWith(QStringLiteral("apart from the group.")), qPrintable(notice->text()));
+}
+
+void FeelPanelTest::overlapsWithSpringsAreNotSaidToBeUnfelt() {
+  const test::TemporaryFolder folder;
+  ui::PresetStore presets(folder.path() / "presets.json");
+  QAction clutch;
+  ui::FeelPanel panel({new QToolButton, &clutch, presets});
+  const auto* notice = panel.findChild<QLabel*>(QStringLiteral("noticeText"));
+  Scene scene;
+  const PartId plate = scene.add(test::partOf(test::geometryOf(test::boxMesh({0.01, 0.01, 0.01})), "plate"));
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  snapshot->mode = HapticMode::Springs;
+  snapshot->overlappingCount = 1;
+  snapshot->overlapping[0] = plate;
+  panel.showSnapshot(*snapshot, scene);
+  QCOMPARE(notice->text(), QStringLiteral("Overlaps plate. Springs do not keep parts apart."));
 }
 
 NEARFIT_QT_SUITE(FeelPanelTest, test::runQtTest<FeelPanelTest>)
