@@ -395,9 +395,10 @@ void Viewport::setCut(const std::optional<ViewCut>& cut) {
   requestRender();
 }
 
-std::optional<PickedPoint> Viewport::pointAt(const QPoint& position, SeenThrough seenThrough) {
+std::optional<PickedPoint> Viewport::pointAt(const QPoint& position, SeenThrough seenThrough,
+                                             const IsNearAt& isNearAt) {
   const double scale = devicePixelRatioF();
-  return parts_.pickPoint(position.x() * scale, (height() - 1 - position.y()) * scale, seenThrough);
+  return parts_.pickPoint(position.x() * scale, (height() - 1 - position.y()) * scale, seenThrough, isNearAt);
 }
 
 std::vector<PartId> Viewport::partsIn(const QRect& place) const {
