@@ -86,7 +86,9 @@ QVariant FindingsModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant FindingsModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
+  if (orientation != Qt::Horizontal) return {};
+  if (role == Qt::ToolTipRole && section == Place) return tr("Place in the part");
+  if (role != Qt::DisplayRole) return {};
   switch (section) {
     case Kind:
       return tr("Finding");
@@ -95,7 +97,7 @@ QVariant FindingsModel::headerData(int section, Qt::Orientation orientation, int
     case Size:
       return tr("Size");
     case Place:
-      return tr("Place in the part");
+      return tr("Place");
     case Effect:
       return tr("Effect");
     default:

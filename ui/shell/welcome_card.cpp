@@ -7,27 +7,37 @@
 #include <QLabel>
 #include <QLayoutItem>
 #include <QPushButton>
+#include <QScrollArea>
+#include <QStyle>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <memory>
 
 #include "core/session/session.h"
 #include "ui/files/recent_files.h"
 #include "ui/widgets/names.h"
+#include "ui/widgets/scroll_column.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 namespace {
 
 constexpr int kMaxRecent = 4;
+/// To the upper and lower edge of the parent, where the card scrolls, and the width of its border [pixels].
+constexpr int kAround = 4, kBorder = 1;
 
 }  // namespace
 
 WelcomeCard::WelcomeCard(Session& session, const QList<QAction*>& ways, QWidget* parent)
-    : QFrame(parent), session_(session), recent_(new QWidget(this)), recentRows_(new QVBoxLayout(recent_)) {
+    : QFrame(parent),
+      session_(session),
+      content_(new QWidget(this)),
+      recent_(new QWidget(content_)),
+      recentRows_(new QVBoxLayout(recent_)) {
   setObjectName(QStringLiteral("welcome"));
   setStyleSheet(QStringLiteral(
       "#welcome { background: rgba(255, 255, 255, 235); border: 1px solid #c9d2db; border-radius: 10px; }"));
-  auto* layout = new QVBoxLayout(this);
+  auto* layout = new QVBoxLayout(content_);
   layout->setContentsMargins(36, 28, 36, 30);
   layout->setSpacing(9);
   auto* picture = new QLabel(this);
@@ -49,7 +59,16 @@ WelcomeCard::WelcomeCard(Session& session, const QList<QAction*>& ways, QWidget*
   recentRows_->setContentsMargins(0, 8, 0, 0);
   recentRows_->setSpacing(2);
   layout->addWidget(recent_);
+  QScrollArea* scroll = makeScrollPane(content_, "welcomeScroll");
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  // The card itself is the background.
+  scroll->viewport()->setAutoFillBackground(false);
+  content_->setAutoFillBackground(false);
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(kBorder, kBorder, kBorder, kBorder);
+  whole->addWidget(scroll);
   parent->installEventFilter(this);
+  content_->installEventFilter(this);
   changes_ = session.onChange(SceneEvents::Stage::Panels, [this] { showIfEmpty(); });
   showIfEmpty();
 }
@@ -79,8 +98,7 @@ void WelcomeCard::listRecent() {
     recentRows_->addWidget(button);
   }
   recent_->setVisible(count > 0);
-  adjustSize();
-  centre();
+  fit();
 }
 
 void WelcomeCard::addButton(QAction* action, bool isMain) {
@@ -93,15 +111,22 @@ void WelcomeCard::addButton(QAction* action, bool isMain) {
   connect(button, &QPushButton::clicked, action, &QAction::trigger);
   connect(action, &QAction::changed, button, followAction);
   followAction();
-  layout()->addWidget(button);
+  content_->layout()->addWidget(button);
 }
 
 bool WelcomeCard::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize) centre();
+  const QEvent::Type changing = watched == content_ ? QEvent::LayoutRequest : QEvent::Resize;
+  if (event->type() == changing) fit();
   return QFrame::eventFilter(watched, event);
 }
 
-void WelcomeCard::centre() {
+void WelcomeCard::fit() {
+  ensurePolished();
+  QSize size = content_->sizeHint() + QSize(2 * kBorder, 2 * kBorder);
+  const int room = parentWidget()->height() - 2 * kAround;
+  if (size.height() > room)
+    size = {size.width() + style()->pixelMetric(QStyle::PM_ScrollBarExtent), std::max(room, 0)};
+  resize(size);
   move(parentWidget()->rect().center() - rect().center());
 }
 

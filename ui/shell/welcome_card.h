@@ -16,6 +16,7 @@ class Session;
 namespace nearfit::ui {
 
 /// A card in the middle of its parent that offers ways to begin while the scene is empty, and the scenes opened last.
+/// Scrolls where its parent is lower.
 class WelcomeCard : public QFrame {
   Q_OBJECT
 
@@ -35,10 +36,11 @@ class WelcomeCard : public QFrame {
   void addButton(QAction* action, bool isMain);
   void listRecent();
   void showIfEmpty();
-  void centre();
+  /// As large as its content, or as its parent has room for, in the middle.
+  void fit();
 
   const Session& session_;
-  QWidget* recent_;
+  QWidget *content_, *recent_;
   QVBoxLayout* recentRows_;
   Subscription changes_;
 };

@@ -28,8 +28,8 @@
 namespace nearfit::ui {
 namespace {
 
-/// Beside it the panels still fit a screen of 800 x 500 [pixels].
-constexpr int kLeastWidth = 220, kLeastHeight = 180;
+/// Beside it the panels still fit a screen of 800 x 500, and a panel below it has room for some rows [pixels].
+constexpr int kLeastWidth = 220, kLeastHeight = 110;
 /// Room for moving parts around everything, as a fraction of its size, when the clipping range is kept.
 /// Beyond it the kept picture must be redrawn.
 constexpr double kRoomForMotion = 0.3;
@@ -395,9 +395,10 @@ void Viewport::setCut(const std::optional<ViewCut>& cut) {
   requestRender();
 }
 
-std::optional<PickedPoint> Viewport::pointAt(const QPoint& position, SeenThrough seenThrough) {
+std::optional<PickedPoint> Viewport::pointAt(const QPoint& position, SeenThrough seenThrough,
+                                             const IsNearAt& isNearAt) {
   const double scale = devicePixelRatioF();
-  return parts_.pickPoint(position.x() * scale, (height() - 1 - position.y()) * scale, seenThrough);
+  return parts_.pickPoint(position.x() * scale, (height() - 1 - position.y()) * scale, seenThrough, isNearAt);
 }
 
 std::vector<PartId> Viewport::partsIn(const QRect& place) const {

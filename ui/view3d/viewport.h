@@ -68,7 +68,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
   /// Parts that are cut but cannot be closed, as of the last picture.
   const std::vector<PartId>& openlyCut() const noexcept { return parts_.openlyCut(); }
   /// Returns what is seen at a pixel of the widget; nullopt over the background.
-  std::optional<PickedPoint> pointAt(const QPoint& position, SeenThrough seenThrough = SeenThrough::AsOthers);
+  std::optional<PickedPoint> pointAt(const QPoint& position, SeenThrough seenThrough = SeenThrough::AsOthers,
+                                     const IsNearAt& isNearAt = {});
   /// Returns the parts seen somewhere in a rectangle of the widget, in the scene's order.
   std::vector<PartId> partsIn(const QRect& place) const;
   /// Selects as a click at that pixel does.

@@ -1,5 +1,6 @@
 #include "ui/widgets/number_field.h"
 
+#include <QCoreApplication>
 #include <QFocusEvent>
 #include <QHelpEvent>
 #include <QKeyEvent>
@@ -106,7 +107,8 @@ bool NumberField::isMixed() const {
 void NumberField::showQuantity(double value) {
   if (isUnsettled()) return;
   const QSignalBlocker blocker(this);
-  const bool isAllSelected = lineEdit()->hasSelectedText() && lineEdit()->selectedText() == text();
+  const bool isAllSelected =
+      isEnabled() && lineEdit()->hasSelectedText() && lineEdit()->selectedText() == text();
   setSpecialValueText({});
   // Adding zero turns "-0" into "0".
   setValue(value / unit_.inSi + 0.0);
@@ -259,12 +261,23 @@ void NumberField::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) lineEdit()->setModified(false);
 }
 
+void NumberField::changeEvent(QEvent* event) {
+  QDoubleSpinBox::changeEvent(event);
+  if (event->type() != QEvent::EnabledChange || isEnabled()) return;
+  // In a window that is not active no event tells of the lost focus: caret and selection would stay.
+  QFocusEvent lost(QEvent::FocusOut, Qt::OtherFocusReason);
+  QCoreApplication::sendEvent(lineEdit(), &lost);
+  lineEdit()->deselect();
+}
+
 void NumberField::focusOutEvent(QFocusEvent* event) {
   // A menu takes the focus only for a while.
   if (event->reason() != Qt::PopupFocusReason && lineEdit()->isModified()) {
     const Reading reading = read(lineEdit()->text());
     if (!reading.fault.isEmpty()) {
       showFault(reading);
+      // Its caret goes, as the base class would have it go.
+      QCoreApplication::sendEvent(lineEdit(), event);
       QWidget::focusOutEvent(event);
       return;
     }

@@ -34,7 +34,7 @@ class NumberField : public QDoubleSpinBox {
   /// Sets the step of arrows and wheel [SI], rounded to 1, 2 or 5 times a power of ten of the shown unit.
   void setQuantityStep(double step);
   /// Shows a quantity [SI] without emitting a signal. Ignored while the user is typing or
-  /// the text cannot be read. If all was selected, all stays selected.
+  /// the text cannot be read. If all was selected, all stays selected while the field is enabled.
   void showQuantity(double value);
   /// Shows a word instead of a number, for several values that differ. Until a number is typed or shown,
   /// quantity() is the lower limit and steps do nothing.
@@ -65,6 +65,8 @@ class NumberField : public QDoubleSpinBox {
   QString textFromValue(double value) const override;
   double valueFromText(const QString& text) const override;
   QValidator::State validate(QString& text, int& position) const override;
+  /// Changes nothing: what cannot be read stays as typed.
+  void fixup(QString& /*text*/) const override {}
   void stepBy(int steps) override;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
@@ -74,6 +76,7 @@ class NumberField : public QDoubleSpinBox {
 
  protected:
   bool event(QEvent* event) override;
+  void changeEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
 

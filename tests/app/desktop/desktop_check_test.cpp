@@ -3,6 +3,7 @@
 #include <QDoubleSpinBox>
 #include <QHeaderView>
 #include <QTableView>
+#include <algorithm>
 #include <filesystem>
 
 #include "core/scene/part_geometry.h"
@@ -72,6 +73,7 @@ class DesktopCheckTest : public QObject {
   void aClickOnTheBadgeShowsItsFindings();
   void theTableSaysWhatIsWrongAndFollowsTheSelection();
   void theEffectOfAFindingIsWholeInTheTable();
+  void aWideTableShowsCountsAndPlacesWhole();
   void aRowShowsThePlaceInTheView();
   void aRepairIsOneStepAndSaysWhatItChanged();
   void aRepairedPartIsSavedAndOpenedAsSuch();
@@ -121,6 +123,22 @@ void DesktopCheckTest::theTableSaysWhatIsWrongAndFollowsTheSelection() {
   QCOMPARE(f.table->model()->rowCount(), 0);
   f.d.window().selection().select({});
   QVERIFY(f.d.text("checkTitle").startsWith(QStringLiteral("Select a part")));
+}
+
+/// Both were cut in a panel of any width.
+void DesktopCheckTest::aWideTableShowsCountsAndPlacesWhole() {
+  CheckFixture f;
+  f.showPanel("open");
+  QTRY_COMPARE(f.table->model()->rowCount(), 1);
+  f.d.window().resize(1900, 900);
+  for (const int column : {FindingsModel::Kind, FindingsModel::Count, FindingsModel::Size,
+                           FindingsModel::Place, FindingsModel::Effect}) {
+    const QFontMetrics letters = f.table->fontMetrics();
+    const QString header = f.table->model()->headerData(column, Qt::Horizontal).toString();
+    const int needed =
+        std::max(letters.horizontalAdvance(f.cell(0, column)), letters.horizontalAdvance(header));
+    QTRY_VERIFY2(f.table->columnWidth(column) > needed, qPrintable(header));
+  }
 }
 
 /// It was elided, beside a count with room to spare.

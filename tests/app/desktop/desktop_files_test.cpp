@@ -1,5 +1,7 @@
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QMessageBox>
+#include <QScrollArea>
 
 #include <nlohmann/json.hpp>
 
@@ -65,6 +67,18 @@ void DesktopFilesTest::emptySceneOffersTheScenesOpenedLast() {
   auto* recent = d.widget<QPushButton>("recent1");
   QVERIFY(recent != nullptr && recent->isVisible());
   QCOMPARE(recent->text(), QStringLiteral("last.nearfit"));
+  // Above a panel there is no room for all of the card: it scrolls.
+  auto* card = d.widget<QWidget>("welcome");
+  const QSize usual = d.window().size();
+  chooseCommand(d.window(), d.widget<QDockWidget>("plotsDock")->toggleViewAction());
+  d.window().resize(800, 464);
+  QTRY_VERIFY(card->parentWidget()->height() < 300);
+  QTRY_VERIFY(card->y() >= 0 && card->geometry().bottom() < card->parentWidget()->height());
+  d.widget<QScrollArea>("welcomeScroll")->ensureWidgetVisible(recent);
+  const auto seen = [&] { return QRect(recent->mapTo(card, QPoint()), recent->size()); };
+  QTRY_VERIFY(seen().top() >= 0 && seen().bottom() <= card->height());
+  d.widget<QDockWidget>("plotsDock")->close();
+  d.window().resize(usual);
   QTest::mouseClick(recent, Qt::LeftButton);
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
   QVERIFY(!d.widget<QWidget>("welcome")->isVisible());

@@ -3,8 +3,10 @@
 #include <QCheckBox>
 #include <QDockWidget>
 #include <QGuiApplication>
+#include <QHeaderView>
 #include <QScreen>
 #include <QScrollArea>
+#include <QTableView>
 #include <algorithm>
 
 #include "tests/app/desktop/desktop_driver.h"
@@ -111,6 +113,7 @@ class DesktopLayoutTest : public QObject {
   void aWindowLargerThanItsScreenIsFittedToIt();
   void aScreenOf1600By1000IsEnoughAtScaleTwo();
   void panelsAtTheBottomScrollInASmallWindow();
+  void aSmallWindowShowsTwoRowsOfClearancesAndAPieceOfThePlots();
   void whatIsHiddenAndMovedComesBack();
   void theThemeComesBack();
   void dialogsThatAreMadeOnDemandHaveNoNamelessField_data();
@@ -216,6 +219,33 @@ void DesktopLayoutTest::panelsAtTheBottomScrollInASmallWindow() {
     dock->close();
     QTRY_VERIFY(!dock->isVisible());
   }
+  run.close();
+}
+
+/// The view's least height left the header and 25 pixels of the plots.
+void DesktopLayoutTest::aSmallWindowShowsTwoRowsOfClearancesAndAPieceOfThePlots() {
+  constexpr QSize kRoom(800, 464);  ///< Without the title bar.
+  constexpr int kLeastOfPlots = 60;
+  Run run;
+  run.window().resize(kRoom);
+  QTRY_COMPARE(run.window().size(), kRoom);
+  const auto open = [&run](const char* name, const char* pane, QWidget& content) {
+    QDockWidget* dock = run.dock(name);
+    chooseCommand(run.window(), dock->toggleViewAction());
+    // Once the panel is laid out.
+    (void)QTest::qWaitFor([dock] { return dock->isVisible(); }, kQtPatienceMs);
+    QTest::qWait(100);
+    dock->findChild<QScrollArea*>(QLatin1String(pane))->ensureWidgetVisible(&content);
+  };
+  auto& table = *run.dock("clearanceDock")->findChild<QTableView*>(QStringLiteral("clearanceTable"));
+  open("clearanceDock", "clearanceScroll", table);
+  const int rows = table.horizontalHeader()->height() + 2 * table.verticalHeader()->defaultSectionSize();
+  QTRY_VERIFY2(seenOf(table).height() >= rows, qPrintable(QString::number(seenOf(table).height())));
+  run.dock("clearanceDock")->close();
+  auto& plots = *run.dock("plotsDock")->findChild<QWidget*>(QStringLiteral("plotView"));
+  open("plotsDock", "plotsScroll", plots);
+  QTRY_VERIFY2(seenOf(plots).height() >= kLeastOfPlots, qPrintable(QString::number(seenOf(plots).height())));
+  QCOMPARE(run.window().size(), kRoom);
   run.close();
 }
 

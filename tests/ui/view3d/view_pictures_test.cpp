@@ -9,6 +9,7 @@
 
 #include <vtkVersion.h>
 
+#include "core/report/clearance_colours.h"
 #include "core/report/clearance_map.h"
 #include "core/session/session.h"
 #include "tests/support/mesh_generators.h"
@@ -145,6 +146,7 @@ class ViewPicturesTest : public QObject {
   void cutFacesAreClosedAndHatched();
   void whatIsBehindATransparentPartIsSeen();
   void aTransparentPartLeavesTheColoursOfAMapAsTheyAre();
+  void theColoursOfABoreAreSeenThroughItsOwnOuterWall();
   void aGlyphThatIsMissingIsSeen();
   void anArrowThatIsMissingIsSeen();
   void smoothedEdgesAndLettersAreNotSeen();
@@ -273,6 +275,43 @@ void ViewPicturesTest::aTransparentPartLeavesTheColoursOfAMapAsTheyAre() {
   b.view.setColours({}, false);
   QVERIFY(!hasOutline());
   QVERIFY(differenceWithPlate() > kFewPercent);
+}
+
+/// The outer wall hid them, and the pointer found it.
+void ViewPicturesTest::theColoursOfABoreAreSeenThroughItsOwnOuterWall() {
+  constexpr double kRange = 0.005, kGap = 0.001;
+  constexpr int kSameHue = 15;  // Of 360.
+  Bench b;
+  b.session.movePart(b.peg, {{1, 0, 0, 0}, {0.0, 0.0, 0.0}});
+  b.session.setVisible(b.ball, false);
+  b.session.setOpacity({b.plate}, 0.4);
+  b.view.setScene(b.session.scene());
+  b.view.setOrthographic(true);
+  b.view.setView(ui::StandardView::Front);
+  b.picture();
+  const glm::dvec2 pixel = b.view.projection().pixelOf({0.0003, -0.03, 0.0}).value();
+  const QPoint at(static_cast<int>(std::lround(pixel.x)), static_cast<int>(std::lround(pixel.y)));
+  const ClearanceMap map =
+      ClearanceMapper().map(clearanceMapRequest(b.session.scene(), b.plate, kRange, false));
+  const MappedSurface& mapped = map.surfaces.front();
+  b.view.setColours({{b.plate, ui::colouredSurface(mapped, map.range)}}, false);
+  const Colour colour = clearanceColour(kGap, kRange);
+  const QColor expected = QColor::fromRgbF(static_cast<double>(colour.r), static_cast<double>(colour.g),
+                                           static_cast<double>(colour.b));
+  const QColor seen = b.picture().pixelColor(at);
+  const int turn = std::abs(seen.hue() - expected.hue());
+  QVERIFY2(seen.saturation() > 60 && std::min(turn, 360 - turn) <= kSameHue,
+           qPrintable(seen.name() + QStringLiteral(" instead of ") + expected.name()));
+
+  const auto isNearAt = [&](PartId, std::uint32_t triangle, const glm::dvec3& point) {
+    return clearanceAt(mapped, triangle, point).has_value();
+  };
+  const auto nearest = b.view.pointAt(at, ui::SeenThrough::Never, isNearAt);
+  QVERIFY(nearest && nearest->part == b.plate);
+  QVERIFY2(std::abs(nearest->point.y + 0.009) < 1e-4, qPrintable(QString::number(nearest->point.y)));
+  // A click takes the part as ever.
+  const auto outer = b.view.pointAt(at);
+  QVERIFY(outer && outer->part == b.plate && outer->point.y < -0.029);
 }
 
 void ViewPicturesTest::aGlyphThatIsMissingIsSeen() {

@@ -38,6 +38,8 @@ class NumberFieldTest : public QObject {
   void compoundUnitsConvert();
   void aDoubleClickSelectsTheWholeNumber();
   void aNumberThatChangesAfterReturnStaysSelected();
+  void aFieldWithoutFocusHasNoCaret();
+  void aDisabledFieldIsNotSelected();
   void toolTipTellsWhatCanBeTyped();
 
  private:
@@ -267,6 +269,42 @@ void NumberFieldTest::aNumberThatChangesAfterReturnStaysSelected() {
   QTest::keyClicks(length_, QStringLiteral("4"));
   QTest::keyClick(length_, Qt::Key_Return);
   QVERIFY(isNear(length_->quantity(), 0.004));
+}
+
+/// Two fields had one.
+void NumberFieldTest::aFieldWithoutFocusHasNoCaret() {
+  const int usual = QApplication::cursorFlashTime();
+  QApplication::setCursorFlashTime(0);
+  // A caret is seen to move.
+  const auto hasCaret = [this] {
+    QImage pictures[2];
+    for (const int at : {0, 1}) {
+      edit()->setCursorPosition(4 * at);
+      pictures[at] = edit()->grab().toImage();
+    }
+    return pictures[0] != pictures[1];
+  };
+  type(length_, QStringLiteral("2*(3"));
+  const bool hasItFirst = hasCaret();
+  angle_->setFocus();
+  const bool isFaulty = length_->isFaulty(), hasItLater = hasCaret();
+  QApplication::setCursorFlashTime(usual);
+  QVERIFY(hasItFirst && isFaulty);
+  QVERIFY(!hasItLater);
+  QCOMPARE(length_->text(), QStringLiteral("2*(3"));
+}
+
+/// After *New* it was.
+void NumberFieldTest::aDisabledFieldIsNotSelected() {
+  enter(length_, QStringLiteral("1"));
+  length_->selectAll();
+  // As while a dialog asks.
+  QApplication::setActiveWindow(nullptr);
+  QVERIFY(edit()->hasSelectedText());
+  length_->setEnabled(false);
+  QVERIFY(!edit()->hasSelectedText());
+  length_->showQuantity(0.003);
+  QVERIFY(!edit()->hasSelectedText());
 }
 
 void NumberFieldTest::toolTipTellsWhatCanBeTyped() {

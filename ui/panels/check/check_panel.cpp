@@ -44,11 +44,37 @@ Aabb seenBox(const MeshFinding& finding, const TriangleMesh& mesh, const RigidTr
   return box;
 }
 
-/// As high as it must be: it has the rest of a large panel, and a small panel scrolls no further than needed.
+/// As high as it must be: it has the rest of a large panel, and a small panel scrolls no further than needed. Counts and
+/// places, whose tool tips have all of them, are as wide as the effect, which matters most, leaves them room.
 class FindingsTable : public QTableView {
  public:
   using QTableView::QTableView;
   QSize sizeHint() const override { return minimumSize(); }
+  void setModel(QAbstractItemModel* model) override {
+    QTableView::setModel(model);
+    connect(model, &QAbstractItemModel::modelReset, this, [this] { fitColumns(); });
+    connect(model, &QAbstractItemModel::dataChanged, this, [this] { fitColumns(); });
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QTableView::resizeEvent(event);
+    fitColumns();
+  }
+
+ private:
+  void fitColumns() {
+    const auto needed = [this](int column) {
+      return std::max(sizeHintForColumn(column), horizontalHeader()->sectionSizeHint(column));
+    };
+    const int room = viewport()->width() - needed(FindingsModel::Kind) - needed(FindingsModel::Size) -
+                     needed(FindingsModel::Effect);
+    const int leastCount = forFont(*this, 60), leastPlace = forFont(*this, 72);
+    const int count = std::max(leastCount, std::min(needed(FindingsModel::Count), room - leastPlace));
+    horizontalHeader()->resizeSection(FindingsModel::Count, count);
+    horizontalHeader()->resizeSection(
+        FindingsModel::Place, std::max(leastPlace, std::min(needed(FindingsModel::Place), room - count)));
+  }
 };
 
 QString stepText(const RepairStep& step) {
@@ -163,9 +189,6 @@ void CheckPanel::setUpTable() {
   QHeaderView* header = table_->horizontalHeader();
   header->setSectionResizeMode(FindingsModel::Kind, QHeaderView::ResizeToContents);
   header->setSectionResizeMode(FindingsModel::Size, QHeaderView::ResizeToContents);
-  // Counts and places, whose tool tips have all of them, leave the width to the effect, which matters most.
-  header->resizeSection(FindingsModel::Count, forFont(*table_, 60));
-  header->resizeSection(FindingsModel::Place, forFont(*table_, 72));
   header->setSectionResizeMode(FindingsModel::Effect, QHeaderView::Stretch);
   header->setHighlightSections(false);
   connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this,

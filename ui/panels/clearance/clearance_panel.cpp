@@ -127,8 +127,8 @@ void ClearancePanel::setUpTable() {
   table_->setModel(sorted_);
   setUpRowTable(*table_);
   table_->sortByColumn(ClearanceModel::Distance, Qt::AscendingOrder);
-  // A small window has room for the header and a row and a half, which show that there are more.
-  table_->setMinimumSize(forFont(*table_, 360), forFont(*table_, 60));
+  // The panel scrolls where there is no room for the header and two rows.
+  table_->setMinimumSize(forFont(*table_, 360), forFont(*table_, 78));
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(ClearanceModel::Other, QHeaderView::Stretch);
   table_->horizontalHeader()->setHighlightSections(false);

@@ -57,7 +57,11 @@ void MapProbe::probe() {
 }
 
 QString MapProbe::textAt(const QPoint& position) const {
-  const std::optional<PickedPoint> seen = view_.pointAt(position, SeenThrough::Never);
+  const auto isNearAt = [this](PartId id, std::uint32_t triangle, const glm::dvec3& point) {
+    const MappedSurface* surface = map_->map.find(id);
+    return surface != nullptr && clearanceAt(*surface, triangle, point).has_value();
+  };
+  const std::optional<PickedPoint> seen = view_.pointAt(position, SeenThrough::Never, isNearAt);
   const MappedSurface* mapped = seen && seen->cut == nullptr ? map_->map.find(seen->part) : nullptr;
   const Part* part = mapped != nullptr ? session_.scene().find(seen->part) : nullptr;
   if (part == nullptr) return {};

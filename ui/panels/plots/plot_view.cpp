@@ -14,6 +14,21 @@ const QColor kTick(0x1f, 0x73, 0xd0), kLate(0xe2, 0x71, 0x1d);
 
 constexpr std::size_t kClearancePane = 2;
 constexpr QSize kUsualSize(320, 180);  ///< [pixels]
+/// Max number of numbers along an axis, as wanted of its ticker.
+constexpr int kMostValues = 4, kMostTimes = 5;
+/// A ticker takes round steps, the shortest about this share of those wanted.
+constexpr double kShortestStep = 0.65;
+
+/// Wants as many numbers along an axis as there is room for, at most `most`; none where there is not room for one.
+/// True if that changed anything.
+bool fitTicks(QCPAxis& axis, double room, double ofNumber, int most) {
+  const int count = std::min(static_cast<int>(kShortestStep * room / ofNumber), most);
+  const bool hasNumbers = count > 0;
+  if (axis.tickLabels() == hasNumbers && axis.ticker()->tickCount() == std::max(count, 1)) return false;
+  axis.setTickLabels(hasNumbers);
+  axis.ticker()->setTickCount(std::max(count, 1));
+  return true;
+}
 
 /// Returns a range from zero to above the greatest value, with room for the title; never empty.
 QCPRange valueRange(double greatest) {
@@ -45,6 +60,7 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent) {
   plotLayout()->setRowSpacing(2);
   applyPalette();
   connect(this, &QCustomPlot::afterLayout, this, &PlotView::fitLegends);
+  connect(this, &QCustomPlot::afterLayout, this, &PlotView::fitNumbers);
   timer_.setSingleShot(true);
   timer_.setInterval(kMinRedrawMs);
   connect(&timer_, &QTimer::timeout, this, [this] {
@@ -72,7 +88,7 @@ void PlotView::addPane(int row, int column, const QString& label,
   title->setMargins({kBesideAxis, 0, 0, 0});
   titles_.push_back(title);
   time->setLabel(row == 1 ? tr("Time [s]") : QString());
-  value->ticker()->setTickCount(4);
+  value->ticker()->setTickCount(kMostValues);
   pane.rect->setMinimumMargins({0, 4, 6, 0});
   // The value axis scales itself.
   pane.rect->setRangeZoom(Qt::Horizontal);
@@ -117,6 +133,20 @@ void PlotView::fitLegends() {
     const int wide = widthOf(*titles_[i]) + widthOf(*pane.legend);
     pane.legend->setVisible(wide <= pane.rect->width());
   }
+}
+
+/// Numbers that would lie over each other are left out.
+void PlotView::fitNumbers() {
+  bool isOther = false;
+  for (const Pane& pane : panes_) {
+    QCPAxis &value = *pane.rect->axis(QCPAxis::atLeft), &time = *pane.rect->axis(QCPAxis::atBottom);
+    const int line = QFontMetrics(value.tickLabelFont()).lineSpacing();
+    const int longest = QFontMetrics(time.tickLabelFont()).horizontalAdvance(QStringLiteral("0000.0"));
+    isOther = fitTicks(value, pane.rect->height(), line, kMostValues) || isOther;
+    isOther = fitTicks(time, pane.rect->width(), longest, kMostTimes) || isOther;
+  }
+  // Ticks of this picture are made. Heights do not depend on them, so that the next one is the last.
+  if (isOther) replot(rpQueuedReplot);
 }
 
 void PlotView::applyPalette() {

@@ -64,6 +64,7 @@ class PlotView : public QCustomPlot {
                const std::vector<std::pair<PlotChannel, QColor>>& channels, double scale);
   void addLegend(Pane& pane, const QStringList& lineNames);
   void fitLegends();
+  void fitNumbers();
   void applyPalette();
   void takeUserRange(const QCPRange& range);
   void drawPanes();

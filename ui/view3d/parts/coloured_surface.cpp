@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
@@ -34,6 +35,26 @@ Colour paled(const Colour& colour) noexcept {
   return {mixed(colour.r), mixed(colour.g), mixed(colour.b)};
 }
 
+/// Returns the triangles with a corner within the range, in quick pieces; none if there are none.
+std::vector<vtkSmartPointer<vtkPolyData>> nearPiecesOf(vtkPolyData& surface, double range) {
+  vtkDataArray* clearances = surface.GetPointData()->GetScalars();
+  vtkNew<vtkCellArray> triangles;
+  for (vtkIdType cell = 0; cell < surface.GetNumberOfPolys(); ++cell) {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    surface.GetPolys()->GetCellAtId(cell, size, corners);
+    const auto isNear = [&](vtkIdType corner) { return clearances->GetTuple1(corner) <= range; };
+    if (std::any_of(corners, corners + size, isNear)) triangles->InsertNextCell(size, corners);
+  }
+  if (triangles->GetNumberOfCells() == 0) return {};
+  const auto near = vtkSmartPointer<vtkPolyData>::New();
+  near->SetPoints(surface.GetPoints());
+  near->GetPointData()->SetNormals(surface.GetPointData()->GetNormals());
+  near->GetPointData()->SetScalars(clearances);
+  near->SetPolys(triangles);
+  return quickPiecesOf(*near);
+}
+
 }  // namespace
 
 std::shared_ptr<const ColouredSurface> colouredSurface(const MappedSurface& mapped, double range) {
@@ -49,6 +70,7 @@ std::shared_ptr<const ColouredSurface> colouredSurface(const MappedSurface& mapp
   data->GetPointData()->SetScalars(clearances);
   auto coloured = std::make_shared<ColouredSurface>();
   coloured->pieces = quickPiecesOf(*data);
+  coloured->nearPieces = nearPiecesOf(*data, range);
   coloured->triangles = surface.triangles.size();
   coloured->range = range;
   return coloured;

@@ -17,6 +17,8 @@ struct ColouredSurface {
   /// With normals as the part is shaded, and the clearance as point scalars [m]; beyond the range these are
   /// kBeyond times the range. Each piece draws quickly.
   std::vector<vtkSmartPointer<vtkPolyData>> pieces;
+  /// Same, without triangles whose corners are all beyond the range: for a part that is seen through.
+  std::vector<vtkSmartPointer<vtkPolyData>> nearPieces;
   std::size_t triangles = 0;
   double range = 0.0;  ///< [m]
 

@@ -208,17 +208,27 @@ bool PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLo
     look_->SetColor(static_cast<double>(colour.r), static_cast<double>(colour.g),
                     static_cast<double>(colour.b));
   }
-  look_->SetOpacity(opacity());
-  hideBackFaces();
-  setEdgeColour(*edges_->GetProperty(), look, isOutlined());
+  applyLook();
   showPieces();
   setThrough(isVisible && (look.isSelected || look.isHighlighted));
   showVeil();
   return true;
 }
 
+void PartActor::applyLook() {
+  if (!shownLook_) return;
+  look_->SetOpacity(opacity());
+  hideBackFaces();
+  setEdgeColour(*edges_->GetProperty(), *shownLook_, isOutlined());
+}
+
+bool PartActor::showsOnlyNear() const noexcept {
+  // Drafts have no colours.
+  return colours_ != nullptr && level_ == 0 && isOutlined();
+}
+
 bool PartActor::isOutlined() const noexcept {
-  return shownLook_ && shownLook_->isBesideColours &&
+  return shownLook_ && (shownLook_->isBesideColours || colours_ != nullptr) &&
          (shownLook_->isTranslucent || shownLook_->opacity < 1.0);
 }
 
@@ -228,14 +238,15 @@ bool PartActor::hasEdges() const noexcept {
 
 double PartActor::opacity() const noexcept {
   const PartLook& look = *shownLook_;
-  if (isOutlined()) return std::min(look.opacity, kOutlinedOpacity);
+  if (showsOnlyNear()) return 1.0;
+  if (isOutlined() && colours_ == nullptr) return std::min(look.opacity, kOutlinedOpacity);
   if (!look.isTranslucent) return look.opacity;
   return look.opacity * (look.isOverlapping ? kWarningOpacity : kTranslucentOpacity);
 }
 
 void PartActor::hideBackFaces() {
-  // Back faces are half of the work of a closed surface; a part cut open shows them.
-  look_->SetBackfaceCulling(shape().hidesItsInside && isOpaque() && !mappers_->isCut());
+  // Back faces are half of the work of a closed surface; a part cut open shows them, and a bore seen from outside.
+  look_->SetBackfaceCulling(shape().hidesItsInside && isOpaque() && !mappers_->isCut() && !showsOnlyNear());
 }
 
 bool PartActor::setColours(std::shared_ptr<const ColouredSurface> colours, bool isStale) {
@@ -249,6 +260,7 @@ bool PartActor::setColours(std::shared_ptr<const ColouredSurface> colours, bool 
     if (colours_ != nullptr) levels_.front().triangles = colours_->triangles + lines;
   }
   applyColours();
+  applyLook();
   showPieces();
   if (colours_ == nullptr) dropExtraPieces();
   showVeil();
@@ -277,9 +289,9 @@ const std::vector<ShapeMappers::Mapper>& PartActor::surfaceMappers() {
 }
 
 const std::vector<ShapeMappers::Mapper>& PartActor::clearanceMappers() {
-  std::vector<ShapeMappers::Mapper>& mappers = colourMappers_[isOpaque() ? 0 : 1];
+  std::vector<ShapeMappers::Mapper>& mappers = colourMappers_[showsOnlyNear() ? 1 : 0];
   if (!mappers.empty()) return mappers;
-  for (vtkPolyData* piece : colours_->pieces) {
+  for (vtkPolyData* piece : showsOnlyNear() ? colours_->nearPieces : colours_->pieces) {
     ShapeMappers::Mapper mapper = mappers_->surfaceMapperOf(piece);
     mapper->ScalarVisibilityOn();
     mapper->SetScalarModeToUsePointData();
@@ -321,6 +333,7 @@ void PartActor::setScale(double pixelsPerMetre) {
 void PartActor::setLevel(std::size_t level) {
   if (level == level_) return;
   level_ = level;
+  applyLook();
   showPieces();
 }
 

@@ -94,7 +94,8 @@ struct PartLook {
 /// The actors of one part: surface and edge lines. In the renderer from construction to destruction.
 /// While the part is selected or highlighted, a faint veil and its edges are also drawn over everything, so that it
 /// shows behind other parts. Beside parts in the colours of their clearances, a translucent part is little more than its
-/// edges, which stand out from the background, and there is no veil.
+/// edges, which stand out from the background, and there is no veil. If it has such colours itself, edges and what is
+/// within the range are drawn, the latter opaque: its own outer wall would hide the colours of a bore.
 class PartActor {
  public:
   /// @param renderer  Outlives this.
@@ -125,6 +126,10 @@ class PartActor {
   const ShapeMappers& mappers() const noexcept { return *mappers_; }
   bool isVisible() const noexcept { return isVisible_; }
   bool isOpaque() const noexcept;
+  /// True if what is behind it is seen.
+  bool isSeenThrough() const noexcept { return !isOpaque() || showsOnlyNear(); }
+  /// True if of its mesh only what is within the range of clearances is drawn.
+  bool showsOnlyNear() const noexcept;
   std::size_t level() const noexcept { return level_; }
   /// Levels of detail as they are drawn.
   std::span<const DetailLevel> levels() const noexcept { return levels_; }
@@ -149,11 +154,13 @@ class PartActor {
   const std::vector<ShapeMappers::Mapper>& surfaceMappers();
   const std::vector<ShapeMappers::Mapper>& clearanceMappers();
   void applyColours();
-  /// True if it would tint what is behind it, and must not.
+  /// True if it would tint or hide colours behind it, and must not.
   bool isOutlined() const noexcept;
   bool hasEdges() const noexcept;
   double opacity() const noexcept;
   void hideBackFaces();
+  /// Sets what depends on the look, level and colours.
+  void applyLook();
   void setThrough(bool isThrough);
   void showVeil();
 
@@ -171,7 +178,7 @@ class PartActor {
   Colour colour_;
   std::shared_ptr<const ColouredSurface> colours_;
   vtkNew<vtkLookupTable> table_;                                    ///< Colours of clearances.
-  std::array<std::vector<ShapeMappers::Mapper>, 2> colourMappers_;  ///< Opaque, translucent.
+  std::array<std::vector<ShapeMappers::Mapper>, 2> colourMappers_;  ///< All; within the range.
   std::vector<ShapeMappers::Mapper> faceMappers_;                   ///< In use.
   std::vector<DetailLevel> levels_;
   bool areColoursStale_ = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -33,6 +34,10 @@ enum class SeenThrough : std::uint8_t {
   Last,      ///< They are picked only where no other surface is, in front of them or behind.
   Never,
 };
+
+/// Says of a surface of which only what is within the range of clearances is drawn, whether that is so at a point in
+/// the part's frame [m].
+using IsNearAt = std::function<bool(PartId part, std::uint32_t triangle, const glm::dvec3& point)>;
 
 /// Keeps one PartActor for each part of the scene. Knows no widget; never renders by itself.
 class SceneRenderer {
@@ -110,7 +115,9 @@ class SceneRenderer {
     return picked ? std::optional(picked->part) : std::nullopt;
   }
   /// Like pick(), with the point of its surface.
-  std::optional<PickedPoint> pickPoint(double x, double y, SeenThrough seenThrough = SeenThrough::AsOthers);
+  /// @param isNearAt  Lets the pick pass what is not drawn of a part with clearances that is seen through; empty: no.
+  std::optional<PickedPoint> pickPoint(double x, double y, SeenThrough seenThrough = SeenThrough::AsOthers,
+                                       const IsNearAt& isNearAt = {});
   /// Returns the parts seen at some pixel of a box, in the scene's order. Translucent parts hide nothing.
   std::vector<PartId> seenIn(const ViewProjection& view, const PixelBox& pixels) const;
 

@@ -61,15 +61,29 @@ struct Nearest {
   std::optional<PickedPoint> picked;
 };
 
-/// Finds the first triangle on a ray in the part's frame. True, with `hit` updated, if
+/// A ray that passes a surface goes on this far behind it, as a share of its length: beyond the slack of RayTree.
+constexpr double kBehindSurface = 1e-6;
+/// Max number of surfaces that a ray passes.
+constexpr int kMaxPassed = 100;
+
+/// Finds the first triangle on a ray in the part's frame that `accepts(triangle, point)`. True, with `hit` updated, if
 /// it is nearer than `hit`.
-bool hitFirst(const PartShape& shape, const Ray& ray, Hit& hit) {
-  const std::optional<RayHit> found = shape.rays.firstHit(ray.begin, ray.end);
-  if (!found) return false;
-  const double fraction = ray.from + found->fraction * (ray.to - ray.from);
-  if (fraction >= hit.fraction) return false;
-  hit = {fraction, found->triangle, found->point};
-  return true;
+template <class Accepts>
+bool hitFirst(const PartShape& shape, const Ray& ray, Hit& hit, Accepts&& accepts) {
+  double start = 0.0;
+  for (int passed = 0; passed < kMaxPassed && start < 1.0; ++passed) {
+    const std::optional<RayHit> found = shape.rays.firstHit(ray.at(start), ray.end);
+    if (!found) return false;
+    const double along = start + found->fraction * (1.0 - start);
+    const double fraction = ray.from + along * (ray.to - ray.from);
+    if (fraction >= hit.fraction) return false;
+    if (accepts(found->triangle, found->point)) {
+      hit = {fraction, found->triangle, found->point};
+      return true;
+    }
+    start = along + kBehindSurface;
+  }
+  return false;
 }
 
 }  // namespace
@@ -160,7 +174,8 @@ void SceneRenderer::letGoOfKept() {
   beingKept_.clear();
 }
 
-std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y, SeenThrough seenThrough) {
+std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y, SeenThrough seenThrough,
+                                                    const IsNearAt& isNearAt) {
   updateCut();
   const Ray whole{worldOf(renderer_, x, y, 0.0), worldOf(renderer_, x, y, 1.0)};
   // The nearest surface, and the nearest of those that count only where there is no other.
@@ -187,7 +202,11 @@ std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y, SeenThro
     const RigidTransform worldFromPart = poses_.shownPoseOf(*part), partFromWorld = worldFromPart.inverse();
     const Ray ray{partFromWorld.applyToPoint(seen->begin), partFromWorld.applyToPoint(seen->end), seen->from,
                   seen->to};
-    if (hitFirst(actor->shape(), ray, nearest->hit)) {
+    const bool passesOthers = isNearAt && actor->showsOnlyNear();
+    const auto isDrawn = [&, id = id](std::uint32_t triangle, const glm::dvec3& point) {
+      return !passesOthers || isNearAt(id, triangle, point);
+    };
+    if (hitFirst(actor->shape(), ray, nearest->hit, isDrawn)) {
       const Hit& hit = nearest->hit;
       nearest->picked = PickedPoint{id, worldFromPart.applyToPoint(hit.point), hit.triangle, nullptr};
     }
@@ -206,7 +225,7 @@ std::vector<PartId> SceneRenderer::seenIn(const ViewProjection& view, const Pixe
     const PartActor* actor = find(part->id);
     if (actor == nullptr || !actor->isVisible()) continue;
     const bool isCut = cut_.cuts(scene_.isMoving(part->id));
-    shown.push_back({{part.get(), poses_.shownPoseOf(*part)}, actor->isOpaque(), isCut});
+    shown.push_back({{part.get(), poses_.shownPoseOf(*part)}, !actor->isSeenThrough(), isCut});
   }
   return partsSeenIn(shown, view, pixels, cut_.cut() ? std::optional(cut_.cut()->plane) : std::nullopt);
 }
