@@ -31,9 +31,9 @@ struct MotionRow {
   double proxyTime = 0.0;     ///< Time of the tick spent in the proxy, without its queries [s].
   std::uint32_t subSteps = 0, shortenedSteps = 0, refusedSteps = 0;  ///< Steps of the proxy in this tick.
   std::uint32_t constraints = 0, contacts = 0;                       ///< In the proxy's last step.
-  std::uint32_t overlapping = 0;  ///< Parts that the moving part overlaps.
-  double wrenchTime = 0.0;        ///< Time until the wrench was known [s].
-  bool isBehind = false;          ///< The tick's work ended before the proxy's way.
+  std::uint32_t overlapping = 0;                                     ///< Parts that the moving part overlaps.
+  double wrenchTime = 0.0;                                           ///< Time until the wrench was known [s].
+  bool isBehind = false;  ///< The tick's work ended before the proxy's way.
   double lateness = 0.0;  ///< Delay of the tick after its deadline, or after the report that triggers it [s].
 };
 

@@ -51,8 +51,8 @@ TEST(PngPicture, ASmoothPictureIsMuchSmallerThanItsPixels) {
 TEST(PngPicture, ASizeThatIsNoneIsRefused) {
   EXPECT_THROW(pngOf({0, 1, {}}), UsageError);
   EXPECT_THROW(pngOf({1, -1, {}}), UsageError);
-  EXPECT_THROW(pngOf({1, kMaxPictureSize + 1, std::vector<std::uint8_t>(3 * (kMaxPictureSize + 1))}),
-               UsageError);
+  constexpr std::size_t kTooHigh = kMaxPictureSize + 1;
+  EXPECT_THROW(pngOf({1, static_cast<int>(kTooHigh), std::vector<std::uint8_t>(3 * kTooHigh)}), UsageError);
   EXPECT_THROW(pngOf({2, 1, std::vector<std::uint8_t>(5)}), UsageError);
 }
 

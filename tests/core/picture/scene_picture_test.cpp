@@ -85,10 +85,10 @@ TEST(ScenePicture, ASphereIsADiscThatIsLitByItsNormals) {
   view.centre = pose.translation;
   view.extent = 3.0;
   const Picture picture = drawn({view, {{sphere, pose, kGrey}}, {}}, shapes, kSize, kSize);
-  const double radius = kSize / view.extent;
+  const double radius = kSize / view.extent, middle = 0.5 * kSize;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
-      const double dx = (x + 0.5 - kSize / 2) / radius, dy = (kSize / 2 - y - 0.5) / radius;
+      const double dx = (x + 0.5 - middle) / radius, dy = (middle - y - 0.5) / radius;
       const double away = std::hypot(dx, dy);
       if (away > 1.02) {
         ASSERT_TRUE(isWhite(picture, x, y)) << x << ' ' << y;
