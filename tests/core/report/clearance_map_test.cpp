@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <thread>
 
@@ -78,7 +79,7 @@ void expectAsBruteForce(const Scene& scene, const ClearanceMap& map, const Mappe
 TEST(ClearanceMap, RandomPartsHaveTheBruteForceDistances) {
   test::RandomValues random(21);
   std::size_t inside = 0, beyond = 0, within = 0;
-  for (unsigned round = 0; round < 8 / test::kPoseShare; ++round) {
+  for (std::uint64_t round = 0; round < 8 / test::kPoseShare; ++round) {
     Scene scene;
     std::vector<PartId> ids;
     const auto place = [&](const char* name, TriangleMesh mesh, double reach) {

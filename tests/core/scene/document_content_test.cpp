@@ -54,7 +54,8 @@ TEST_F(ContentOfADocument, OfOneFileIsNamedByItsHash) {
 }
 
 TEST_F(ContentOfADocument, OfSeveralFilesIsNamedByAllOfThem) {
-  const fs::path first = folder_.write("first.bin", "1"), second = folder_.write("second.bin", "2");
+  folder_.write("first.bin", "1");
+  const fs::path second = folder_.write("second.bin", "2");
   forge(gltf_, {"first.bin", "./second.bin"});
   const std::optional<DocumentContent> content = found(gltf_);
   ASSERT_TRUE(content);

@@ -35,7 +35,7 @@ std::string pathOf(const Scene& scene, const Part& part) {
   std::string path = part.name;
   for (const Group* g = part.group ? scene.findGroup(*part.group) : nullptr; g != nullptr;
        g = g->parent ? scene.findGroup(*g->parent) : nullptr)
-    path = g->name + "|" + path;
+    path.insert(0, g->name + "|");
   return path;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -151,7 +152,7 @@ TEST(ClashDepth, ABodyInsideAnotherIsFreedOutOfItsNearestSide) {
 TEST(ClashDepth, JaggedBodiesAreFreeAfterItAndNoAxisOfTheirBoxesIsShorter) {
   test::RandomValues random(3);
   int tried = 0;
-  for (unsigned round = 0; round < 10; ++round) {
+  for (std::uint64_t round = 0; round < 10; ++round) {
     const TriangleMesh a = test::starMesh(2 * round, 0.5, 1, 0.4);
     const TriangleMesh b = test::starMesh(2 * round + 1, 0.5, 1, 0.4);
     RigidTransform pose = random.pose().normalized();
