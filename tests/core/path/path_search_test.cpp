@@ -95,7 +95,7 @@ TEST(PathSearch, ABentPipeComesOutRoundItsBend) {
 }
 
 TEST(PathSearch, TheSameSeedGivesTheSamePath) {
-  const test::SuggestScene made = test::pipeOut();
+  const test::SuggestScene made = test::pegBesideHole();
   const PathSearchResult a = search(made, withSeed(5)), b = search(made, withSeed(5));
   ASSERT_EQ(a.end, PathSearchEnd::Found);
   EXPECT_TRUE(isSamePath(a.path, b.path));

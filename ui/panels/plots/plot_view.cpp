@@ -60,7 +60,8 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent) {
   plotLayout()->setRowSpacing(2);
   applyPalette();
   connect(this, &QCustomPlot::afterLayout, this, &PlotView::fitLegends);
-  connect(this, &QCustomPlot::afterLayout, this, &PlotView::fitNumbers);
+  // Between layout and drawing an axis that gets labels would lack their texts.
+  connect(this, &QCustomPlot::afterReplot, this, &PlotView::fitNumbers);
   timer_.setSingleShot(true);
   timer_.setInterval(kMinRedrawMs);
   connect(&timer_, &QTimer::timeout, this, [this] {
@@ -145,7 +146,7 @@ void PlotView::fitNumbers() {
     isOther = fitTicks(value, pane.rect->height(), line, kMostValues) || isOther;
     isOther = fitTicks(time, pane.rect->width(), longest, kMostTimes) || isOther;
   }
-  // Ticks of this picture are made. Heights do not depend on them, so that the next one is the last.
+  // Heights do not depend on the ticks, so that the next picture is the last.
   if (isOther) replot(rpQueuedReplot);
 }
 
