@@ -188,8 +188,9 @@ std::optional<CylinderRegion> grown(const TriangleMesh& mesh, std::uint32_t firs
   return region;
 }
 
-/// The cylinder that a triangle's facet and one beside it tell.
-std::optional<CylinderRegion> regionFrom(const TriangleMesh& mesh, std::uint32_t triangle) {
+}  // namespace
+
+std::optional<CylinderRegion> cylinderRegion(const TriangleMesh& mesh, std::uint32_t triangle) {
   std::optional<CylinderRegion> best;
   const std::vector<std::uint32_t> facet = facetOf(mesh, triangle);
   const glm::dvec3 normal = triangleNormal(mesh, triangle);
@@ -228,36 +229,6 @@ std::optional<CylinderRegion> regionFrom(const TriangleMesh& mesh, std::uint32_t
     if (best) return best;
   }
   return best;
-}
-
-/// Triangles of facets beside one, across edges that are not sharp; some of them.
-std::vector<std::uint32_t> besideFacetOf(const TriangleMesh& mesh, std::uint32_t triangle) {
-  constexpr std::size_t kMost = 4;
-  const std::vector<std::uint32_t> facet = facetOf(mesh, triangle);
-  std::unordered_set<std::uint32_t> seen(facet.begin(), facet.end());
-  std::vector<std::uint32_t> beside;
-  for (const std::uint32_t t : facet) {
-    for (const std::uint32_t edge : mesh.edgesOfTriangle(t)) {
-      if (isSharp(mesh, edge)) continue;
-      const auto faces = mesh.facesOfEdge(edge);
-      const std::uint32_t other = faces[0] == t ? faces[1] : faces[0];
-      if (seen.insert(other).second) beside.push_back(other);
-      if (beside.size() == kMost) return beside;
-    }
-  }
-  return beside;
-}
-
-}  // namespace
-
-std::optional<CylinderRegion> cylinderRegion(const TriangleMesh& mesh, std::uint32_t triangle) {
-  if (auto region = regionFrom(mesh, triangle)) return region;
-  // Where a slot leaves only a piece of a facet, only those beside it tell the cylinder.
-  for (const std::uint32_t other : besideFacetOf(mesh, triangle)) {
-    std::optional<CylinderRegion> region = regionFrom(mesh, other);
-    if (region && std::ranges::find(region->triangles, triangle) != region->triangles.end()) return region;
-  }
-  return std::nullopt;
 }
 
 }  // namespace nearfit
