@@ -24,15 +24,15 @@ namespace {
 
 const QString kKindKey = QStringLiteral("export/kind"), kUnitKey = QStringLiteral("export/metresPerUnit");
 
-struct Unit {
+struct ExportUnit {
   const char* name;
   const char* sign;
   double metres;
 };
-constexpr std::array<Unit, 4> kUnits = {{{QT_TRANSLATE_NOOP("Unit", "Millimetres"), "mm", 1e-3},
-                                         {QT_TRANSLATE_NOOP("Unit", "Centimetres"), "cm", 1e-2},
-                                         {QT_TRANSLATE_NOOP("Unit", "Metres"), "m", 1.0},
-                                         {QT_TRANSLATE_NOOP("Unit", "Inches"), "in", 0.0254}}};
+constexpr std::array<ExportUnit, 4> kUnits = {{{QT_TRANSLATE_NOOP("Unit", "Millimetres"), "mm", 1e-3},
+                                               {QT_TRANSLATE_NOOP("Unit", "Centimetres"), "cm", 1e-2},
+                                               {QT_TRANSLATE_NOOP("Unit", "Metres"), "m", 1.0},
+                                               {QT_TRANSLATE_NOOP("Unit", "Inches"), "in", 0.0254}}};
 
 QString partsText(std::size_t count) {
   return count == 1 ? QObject::tr("1 part") : QObject::tr("%1 parts").arg(count);
@@ -90,7 +90,7 @@ void ExportDialog::setUpFields() {
   visible_->setChecked(true);
   unit_ = new QComboBox(this);
   unit_->setObjectName(QStringLiteral("exportUnit"));
-  for (const Unit& unit : kUnits)
+  for (const ExportUnit& unit : kUnits)
     unit_->addItem(tr(unit.name), unit.metres);
   summary_ = new QLabel(this);
   summary_->setObjectName(QStringLiteral("exportSummary"));
