@@ -11,6 +11,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
+#include "app/cli/scene_part.h"
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/files/input_file.h"
@@ -45,10 +46,8 @@ constexpr const char* kCertifyFooter =
 
 /// Throws UsageError if an output would replace an input.
 void checkCertificateTarget(const CertifyOptions& options, const Scene& scene) {
-  std::vector<std::filesystem::path> inputs{options.path, options.scene};
-  for (const Scene::PartPtr& part : scene.parts()) {
-    if (part->geometry) inputs.push_back(part->geometry->file);
-  }
+  std::vector<std::filesystem::path> inputs = partFiles(scene);
+  inputs.insert(inputs.end(), {options.path, options.scene});
   checkTarget(options.out, inputs);
 }
 

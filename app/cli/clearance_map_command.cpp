@@ -53,8 +53,7 @@ void checkMapOutputs(const ClearanceMapOptions& options, const Scene& scene) {
     if (target.empty()) continue;
     const std::filesystem::path sceneFile = options.scene;
     checkTarget(target, std::span(&sceneFile, 1));
-    for (const Scene::PartPtr& part : scene.parts())
-      checkTarget(target, std::span(&part->geometry->file, 1));
+    checkTarget(target, partFiles(scene));
   }
   if (!options.out.empty() && !options.histogram.empty() && isSameTarget(options.out, options.histogram))
     throw UsageError("--histogram", "it is the file of the map", "name another file");

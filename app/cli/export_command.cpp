@@ -9,6 +9,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
+#include "app/cli/scene_part.h"
 #include "core/base/error.h"
 #include "core/report/scene_export.h"
 #include "core/scene/scene_file.h"
@@ -68,8 +69,7 @@ void runExport(const ExportOptions& options) {
   const std::filesystem::path sceneFile = options.scene;
   checkTarget(options.out, std::span(&sceneFile, 1));
   const Scene scene = readSceneFile(options.scene);
-  for (const Scene::PartPtr& part : scene.parts())
-    checkTarget(options.out, std::span(&part->geometry->file, 1));
+  checkTarget(options.out, partFiles(scene));
   what.only = partsNamed(scene, options.parts);
   const Part* moving = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
   const std::vector<std::string> notes =

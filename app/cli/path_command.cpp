@@ -2,7 +2,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,10 +82,8 @@ void checkPathOptions(const PathOptions& options) {
 
 /// Throws UsageError if an output would replace an input.
 void checkPathTargets(const PathOptions& options, const Scene& scene) {
-  std::vector<std::filesystem::path> inputs{options.input, options.scene};
-  for (const Scene::PartPtr& part : scene.parts()) {
-    if (part->geometry) inputs.push_back(part->geometry->file);
-  }
+  std::vector<std::filesystem::path> inputs = partFiles(scene);
+  inputs.insert(inputs.end(), {options.input, options.scene});
   for (const std::string& target :
        {options.out, options.csv, options.gltf, options.clearance, options.swept}) {
     if (!target.empty()) checkTarget(target, inputs);

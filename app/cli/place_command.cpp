@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -132,8 +133,7 @@ void checkInputsAreKept(const Scene& scene, const PlaceOptions& options) {
   std::vector<std::filesystem::path> inputs = {
       options.scene, options.path, options.deviceFiles.falconFirmware, options.deviceFiles.polhemCalibration};
   if (const auto recording = recordingMeant(options.device)) inputs.push_back(*recording);
-  for (const Scene::PartPtr& part : scene.parts())
-    inputs.push_back(part->geometry->file);
+  std::ranges::copy(partFiles(scene), std::back_inserter(inputs));
   checkTarget(options.record, inputs);
   checkTarget(options.exportFile, inputs);
 }

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <optional>
 #include <span>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include "app/cli/interrupt.h"
 #include "app/cli/output.h"
 #include "app/cli/progress_line.h"
+#include "app/cli/scene_part.h"
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/report/scene_check_export.h"
@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* kStdout = "-";
 
-/// Position of the first `separator` that no backslash takes as it is; npos if there is none.
+/// Position of the first separator without a backslash before it; npos if there is none.
 std::size_t findUnescaped(const std::string& text, char separator) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\\') {
@@ -93,8 +93,7 @@ void checkCheckOutputs(const std::filesystem::path& sceneFile, const Scene& scen
   for (const std::string& target : {options.json, options.csv}) {
     if (target.empty() || target == kStdout) continue;
     checkTarget(target, std::span(&sceneFile, 1));
-    for (const Scene::PartPtr& part : scene.parts())
-      checkTarget(target, std::span(&part->geometry->file, 1));
+    checkTarget(target, partFiles(scene));
   }
 }
 

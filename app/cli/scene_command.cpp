@@ -3,7 +3,6 @@
 #include <map>
 #include <memory>
 #include <set>
-#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "app/cli/haptic_options.h"
 #include "app/cli/output.h"
 #include "app/cli/scene_joints_command.h"
+#include "app/cli/scene_part.h"
 #include "app/cli/scene_refine_command.h"
 #include "core/base/error.h"
 #include "core/scene/document_load.h"
@@ -170,8 +170,7 @@ Scene makeScene(const SceneNewOptions& options, std::vector<std::string>& warnin
 void runSceneNew(const SceneNewOptions& options) {
   std::vector<std::string> warnings;
   const Scene scene = makeScene(options, warnings);
-  for (const Scene::PartPtr& part : scene.parts())
-    checkTarget(options.out, std::span(&part->geometry->file, 1));
+  checkTarget(options.out, partFiles(scene));
   writeSceneFile(scene, options.out);
   printCacheWarnings();
   for (const std::string& warning : warnings)

@@ -44,4 +44,12 @@ Scene withInHand(Scene scene, const std::string& part, const std::string& group,
   return scene;
 }
 
+std::vector<std::filesystem::path> partFiles(const Scene& scene) {
+  std::vector<std::filesystem::path> files;
+  for (const Scene::PartPtr& part : scene.parts()) {
+    if (part->geometry) files.push_back(part->geometry->file);
+  }
+  return files;
+}
+
 }  // namespace nearfit::cli

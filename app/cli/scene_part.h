@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/scene/scene.h"
 
@@ -16,5 +18,8 @@ GroupId namedGroup(const Scene& scene, const std::string& name, const std::strin
 /// others, if both are given, or if nothing is in hand then.
 Scene withInHand(Scene scene, const std::string& part, const std::string& group,
                  const std::string& sceneFile);
+
+/// The files that the parts were read from: no output may replace one.
+std::vector<std::filesystem::path> partFiles(const Scene& scene);
 
 }  // namespace nearfit::cli

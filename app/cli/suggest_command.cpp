@@ -85,10 +85,8 @@ nlohmann::ordered_json suggestJson(const Scene& scene, const PathGoal& goal, con
 void runSuggest(const SuggestOptions& options) {
   checkSuggestOptions(options);
   const Scene scene = withInHand(readSceneFile(options.scene), options.part, options.group, options.scene);
-  std::vector<std::filesystem::path> inputs{options.scene};
-  for (const Scene::PartPtr& part : scene.parts()) {
-    if (part->geometry) inputs.push_back(part->geometry->file);
-  }
+  std::vector<std::filesystem::path> inputs = partFiles(scene);
+  inputs.emplace_back(options.scene);
   checkTarget(options.out, inputs);
   const PathGoal goal = goalOf(options, scene);
   PathSearchOptions search;

@@ -84,7 +84,7 @@ class Components {
   std::vector<std::uint32_t> parent_;
 };
 
-/// What one component has become.
+/// Shell made of one component.
 struct ShellPart {
   TopoDS_Shell shell;
   bool isClosed = true;

@@ -8,7 +8,6 @@
 #include <ostream>
 #include <set>
 #include <streambuf>
-#include <tuple>
 #include <utility>
 
 #include <APIHeaderSection_MakeHeader.hxx>

@@ -26,7 +26,7 @@ constexpr unsigned kMaxThreads = 8;
 /// Processor time in which half of what is left of a stage is shown as done, if nothing else is known [s]: about what a
 /// mesh of a million triangles takes.
 constexpr double kHalfTime = 10.0;
-/// Pause between two looks at it: a few pictures a second.
+/// Time between two reports: ten a second.
 constexpr std::chrono::milliseconds kTick{100};
 
 /// Processor time that all threads of this process have used [s].

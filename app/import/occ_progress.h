@@ -20,8 +20,8 @@ class OccProgress {
   /// The next stage, which brings the whole to `end` (0 to 1).
   Message_ProgressRange stageTo(double end);
 
-  /// While it exists, progress of the present stage grows with the processor time that is used, by the less the more of
-  /// it is used: OpenCASCADE says nothing while it meshes one face, which takes minutes if it is large and its triangles
+  /// While it exists, progress of the present stage grows with the processor time that is used, more slowly the more
+  /// has been used: OpenCASCADE says nothing while it meshes one face, which takes minutes if it is large and its triangles
   /// are fine. A process that hangs uses none, and one that loops is ended by its limit of it.
   class Steady {
    public:

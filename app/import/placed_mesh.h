@@ -33,8 +33,8 @@ std::string restText(const glm::dmat3& rest);
 /// Colours of a mesh's triangles.
 class TriangleColours {
  public:
-  /// Of colours that are told apart; triangles of others have none. A picture of that many says nothing more, and
-  /// each becomes a face.
+  /// Max number of colours that are told apart; triangles of further ones have none. More would show nothing, and each
+  /// becomes a face.
   static constexpr std::size_t kMaxColours = 4096;
 
   /// Adds the next triangle; std::nullopt: it has the colour of its part.
@@ -55,7 +55,7 @@ class TriangleColours {
  private:
   std::vector<std::optional<CadColour>> colours_{std::nullopt};
   std::map<CadColour, std::uint32_t> numberAt_;
-  std::vector<std::uint32_t> numbers_;  ///< Of each triangle.
+  std::vector<std::uint32_t> numbers_;  ///< Number of each triangle's colour.
   bool areTooMany_ = false;
 };
 

@@ -26,8 +26,8 @@ struct ThreeMfObject {
   std::vector<glm::dvec3> vertices;
   std::vector<Triangle> triangles;
   std::vector<ThreeMfPlacement> components;
-  std::optional<CadColour> colour;  ///< Of its triangles that have none of their own.
-  /// Of base materials and groups of colours; empty, or one for each triangle.
+  std::optional<CadColour> colour;  ///< Colour of its triangles that have none of their own.
+  /// Colours by base materials and groups of colours; empty, or one for each triangle.
   TriangleColours triangleColours;
 };
 

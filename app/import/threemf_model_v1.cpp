@@ -168,7 +168,7 @@ class Library {
     takeColours(object, taken);
   }
 
-  /// Of a triangle whose corners have several, the first one's.
+  /// Takes the colours of triangles; of one whose corners have several, that of the first corner.
   void takeColours(NMR::PLib3MFBase* object, ThreeMfObject& taken) const {
     NMR::PLib3MFBase* properties = nullptr;
     if (NMR::lib3mf_meshobject_createpropertyhandler(object, &properties) != 0) return;

@@ -111,7 +111,7 @@ class Library {
     return at->second;
   }
 
-  /// Of a triangle whose corners have several, the first one's.
+  /// Takes the colours of triangles; of one whose corners have several, that of the first corner.
   void takeColours(Lib3MF::CMeshObject& mesh, ThreeMfObject& taken) {
     std::vector<Lib3MF::sTriangleProperties> properties;
     try {

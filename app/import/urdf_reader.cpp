@@ -107,7 +107,7 @@ bool isReadableMesh(const std::filesystem::path& mesh) {
   return isGltf(mesh) || std::ranges::find(readable, lowerExtension(mesh)) != readable.end();
 }
 
-/// A glTF file as if it were imported by itself, without a sign of its progress.
+/// A glTF file as if it were imported by itself, without a sign of its progress and without its hash.
 ImportJob gltfJob(const std::filesystem::path& file) {
   ImportJob job;
   job.file = file;
@@ -115,7 +115,6 @@ ImportJob gltfJob(const std::filesystem::path& file) {
   job.stem = file.stem().string();
   checkMeshFile(file);
   job.bytes = readWholeFile(file);
-  job.sha256 = sha256OfBytes(job.bytes);
   job.progress = [](double) {};
   job.endStage = [](const char*) {};
   return job;
@@ -338,7 +337,7 @@ class UrdfReader {
 
   void noteFiles(const std::string& name) {
     const FoundFile found = files_.find(name);
-    // What is never read decides nothing.
+    // A file that is never read decides nothing.
     if (found.problem.empty() && !isReadableMesh(found.path)) return;
     companions_.add(name, found);
     if (!found.problem.empty() || !isGltf(found.path)) return;
@@ -399,7 +398,9 @@ class UrdfReader {
   /// One shape of all nodes. A colour that they share is noted for the nodes of the shape.
   CadShape gltfShape(const std::filesystem::path& file, const glm::dmat3& scale, std::int32_t index,
                      bool dropsColours) {
-    const CadDocument document = readGltf(gltfJob(file));
+    ImportJob job = gltfJob(file);
+    job.sha256 = sha256OfBytes(job.bytes);
+    const CadDocument document = readGltf(job);
     PlacedTriangles placed = placedTriangles(document, file);
     const std::optional<CadColour> common = placed.colours.common();
     if (common) meshColours_[index] = *common;
@@ -416,7 +417,7 @@ class UrdfReader {
   CompanionList companions_;
   std::set<std::string> noted_;
   std::map<std::tuple<std::string, double, double, double, bool>, std::int32_t> meshes_;
-  std::map<std::int32_t, CadColour> meshColours_;  ///< Of all triangles of a shape.
+  std::map<std::int32_t, CadColour> meshColours_;  ///< Colour of all triangles of a shape.
 };
 
 }  // namespace

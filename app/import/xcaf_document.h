@@ -28,8 +28,8 @@ struct ExactShape {
   const std::string& key;       ///< CadShape::key of the shape that it would become.
   const Body& body;             ///< Shells of a solid, or loose shells and faces.
   bool isSolid = false;         ///< The body is one.
-  double metresPerUnit = 1e-3;  ///< Of its coordinates; negative if its placements mirror it.
-  const ColourTable& colours;   ///< Of its product.
+  double metresPerUnit = 1e-3;  ///< Unit of the body's coordinates; negative if its placements mirror it.
+  const ColourTable& colours;   ///< Colours of its product.
 };
 
 /// Turns an OpenCASCADE document into ours: products are meshed once, however often they are placed. Throws FileError.

@@ -42,18 +42,6 @@ TriangleCorners cornersAt(const MeshArrays& mesh, std::size_t triangle) {
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
-Aabb boxAround(const TriangleCorners& corners) {
-  Aabb box;
-  for (const glm::dvec3& p : corners)
-    box.add(p);
-  return box;
-}
-
-bool doBoxesMeet(const Aabb& a, const Aabb& b) {
-  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
-         b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
-}
-
 Aabb boxAround(const MeshArrays& mesh) {
   Aabb box;
   for (const auto& t : mesh.triangles) {
@@ -67,7 +55,7 @@ Aabb boxAround(const MeshArrays& mesh) {
 std::vector<std::uint32_t> trianglesWithin(const MeshArrays& mesh, const Aabb& box) {
   std::vector<std::uint32_t> within;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (doBoxesMeet(boxAround(cornersAt(mesh, i)), box)) within.push_back(i);
+    if (doOverlap(boxOf(cornersAt(mesh, i)), box)) within.push_back(i);
   }
   return within;
 }
@@ -300,7 +288,7 @@ IntersectionCurves findIntersectionCurves(const MeshArrays& a, const MeshArrays&
   if (ofA.empty() || ofB.empty()) return curves;
   BoxPairs boxes(ofB.size());
   for (const std::uint32_t i : ofB)
-    boxes.add(boxAround(cornersAt(b, i)));
+    boxes.add(boxOf(cornersAt(b, i)));
   boxes.build();
   CurveBuilder builder;
   std::size_t pairs = 0;
@@ -310,7 +298,7 @@ IntersectionCurves findIntersectionCurves(const MeshArrays& a, const MeshArrays&
     const TriangleCorners first = cornersAt(a, ofA[i]);
     if (hasNoArea(first)) continue;
     near.clear();
-    boxes.forEachAt(boxAround(first), [&](std::uint32_t k) { near.push_back(ofB[k]); });
+    boxes.forEachAt(boxOf(first), [&](std::uint32_t k) { near.push_back(ofB[k]); });
     for (const std::uint32_t k : near) {
       const bool isStopped = ++pairs % kBetweenQuestions == 0 && goOn && !goOn();
       curves.isComplete = pairs <= maxPairs && !isStopped;

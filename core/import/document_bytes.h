@@ -108,7 +108,7 @@ class DocumentReader {
     return hasColour ? std::optional(colour) : std::nullopt;
   }
   bool isAtEnd() const noexcept { return bytes_.empty(); }
-  /// What is left.
+  /// Bytes that are not read yet.
   std::span<const std::byte> rest() const noexcept { return bytes_; }
   [[noreturn]] void fail(const char* problem) const {
     throw Error("byte " + std::to_string(size_ - bytes_.size()), problem, "import the file again");

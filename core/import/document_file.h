@@ -23,9 +23,9 @@ constexpr std::size_t kMaxWarningBytes = 1000, kMaxWarnings = 100;
 /// Of a coordinate or a length, in the document's unit: farther than the moon in millimetres, and its square and cube
 /// are far from overflow.
 constexpr double kMaxDocumentLength = 1e12;
-/// Of the unit that a file states [m]: from nanometres to beyond miles.
+/// Least and largest unit that a file may state [m]: from nanometres to beyond miles.
 constexpr double kMinStatedUnit = 1e-9, kMaxStatedUnit = 1e4;
-/// Of the result file: some 100 million triangles at 32 bytes each.
+/// Max size of the result file: some 100 million triangles at 32 bytes each.
 constexpr std::uint64_t kMaxDocumentBytes = std::uint64_t{4} << 30;
 
 /// Throws Error, whose place is within the document, if it exceeds a limit or contradicts itself: an index out of

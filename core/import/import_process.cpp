@@ -36,11 +36,11 @@ using Clock = std::chrono::steady_clock;
 /// Time between two looks at whether the user cancels: short enough to be felt as at once [ms].
 constexpr int kLookEveryMs = 20;
 
-/// What messages say about a program's work.
+/// Words of messages about a program's work.
 struct HelperWork {
   const char* program;    ///< Its file.
-  const char* variable;   ///< Of the environment, which names another.
-  const char* missing;    ///< What it is, for one that is missing.
+  const char* variable;   ///< Variable of the environment that names another file.
+  const char* missing;    ///< Its name in the message that it is missing.
   const char* name;       ///< "its ... crashed"
   const char* smaller;    ///< Remedy if memory, time or room run out.
   const char* otherwise;  ///< Remedy if it fails for a reason that nobody knows.

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-/// What nearfit-import and nearfit-export agree on with the program that starts them.
+/// Descriptors and messages shared by nearfit-import and nearfit-export with the program that starts them.
 namespace nearfit::import_protocol {
 
 /// Names of the programs, which lie in the folder of the others.

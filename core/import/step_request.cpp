@@ -1,9 +1,6 @@
 #include "core/import/step_request.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <utility>
 
 #include "core/base/error.h"
 #include "core/import/document_bytes.h"

@@ -11,7 +11,7 @@
 #include "core/import/cad_document.h"
 #include "core/import/document_file.h"
 
-/// What nearfit-export gets and returns.
+/// Request to nearfit-export, and its result.
 namespace nearfit {
 
 /// Schemas of STEP files; both hold assemblies, solids, names and colours.
@@ -20,7 +20,7 @@ enum class StepSchema : std::uint8_t { Ap214, Ap242 };
 /// Where the exact surfaces of a shape are.
 struct StepSource {
   std::filesystem::path file;  ///< STEP, IGES or BREP.
-  std::string sha256;          ///< Of the file's bytes; if they have others, the shape is of triangles.
+  std::string sha256;          ///< SHA-256 of the file; if that has changed, the shape is of triangles.
   std::string key;             ///< CadShape::key in that file.
   double metresPerUnit = 1.0;  ///< Of the shape's coordinates as its importer gives them.
 };
@@ -28,7 +28,7 @@ struct StepSource {
 /// An assembly to be written as a STEP file.
 struct StepRequest {
   StepSchema schema = StepSchema::Ap214;
-  std::string name;  ///< Of the whole.
+  std::string name;  ///< Name of the whole assembly.
   /// In metres. Keys of shapes are the names of products. Shapes have their triangles also where they have a source.
   CadDocument document;
   std::vector<std::optional<StepSource>> sources;  ///< By shape; std::nullopt: of triangles.

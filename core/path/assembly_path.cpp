@@ -18,10 +18,6 @@ namespace {
 /// Rotations are unit to within this, of the squared length: a dozen roundings. Others are normalised.
 constexpr double kUnitRounding = 3e-15;
 
-double turnBetween(const RigidTransform& a, const RigidTransform& b) noexcept {
-  return glm::length(rotationVector(glm::conjugate(a.rotation) * b.rotation));
-}
-
 void checkPathPose(const PathPose& pose, std::size_t index, const std::string& where) {
   const auto fail = [&](const std::string& problem) {
     throw UsageError(where, fmt::format("pose {}: {}", index, problem), "correct it, or make the path anew");
@@ -43,12 +39,8 @@ Aabb boxInLead(const Scene& scene, const std::vector<PartId>& parts, const Rigid
     const Part& part = scene.get(id);
     if (!part.geometry || part.geometry->mesh.bounds().isEmpty()) continue;
     const RigidTransform leadFromPart = leadFromWorld * part.worldFromPart;
-    const Aabb& own = part.geometry->mesh.bounds();
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      box.add(leadFromPart.applyToPoint({(corner & 1U ? own.upper : own.lower).x,
-                                         (corner & 2U ? own.upper : own.lower).y,
-                                         (corner & 4U ? own.upper : own.lower).z}));
-    }
+    for (const glm::dvec3& corner : part.geometry->mesh.bounds().corners())
+      box.add(leadFromPart.applyToPoint(corner));
   }
   return box;
 }
@@ -67,6 +59,10 @@ SplitPlace split(const AssemblyPath& path, double place) noexcept {
 }
 
 }  // namespace
+
+double turnBetween(const RigidTransform& a, const RigidTransform& b) noexcept {
+  return glm::length(rotationVector(glm::conjugate(a.rotation) * b.rotation));
+}
 
 void checkPath(const AssemblyPath& path, const std::string& where) {
   if (path.poses.size() < 2)

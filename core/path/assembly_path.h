@@ -47,6 +47,9 @@ struct AssemblyPath {
 /// kMaxPathTime, valid poses (checkedPose) and turns within kMaxPathTurn, and parts that have different, valid names.
 void checkPath(const AssemblyPath& path, const std::string& where);
 
+/// Angle by which one pose is turned from another [rad]; at most pi.
+double turnBetween(const RigidTransform& a, const RigidTransform& b) noexcept;
+
 /// True if all numbers and names are the same, to the bit.
 bool isSamePath(const AssemblyPath& a, const AssemblyPath& b) noexcept;
 

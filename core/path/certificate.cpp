@@ -1,6 +1,5 @@
 #include "core/path/certificate.h"
 
-#include <algorithm>
 #include <map>
 #include <span>
 #include <utility>
@@ -23,7 +22,7 @@ using CertificateJson = nlohmann::ordered_json;
 constexpr int kCertificateVersion = 1;
 /// Digits of a SHA-256.
 constexpr std::size_t kHashDigits = 64;
-/// What comes before and after the hash at the end.
+/// Text before and after the hash at the end.
 constexpr std::string_view kBeforeHash = ",\n  \"sha256\": \"", kAfterHash = "\"\n}\n";
 /// Max numbers of parts and of stretches of all pairs.
 constexpr std::size_t kMaxCertifiedParts = 20'000, kMaxStretches = 8'000'000;

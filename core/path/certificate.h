@@ -58,7 +58,7 @@ struct CertifiedPair {
 struct Certificate {
   std::string program;
   double separation = 0.0;  ///< [m]
-  std::string sceneSha256;  ///< Of the scene file; empty if there was none.
+  std::string sceneSha256;  ///< SHA-256 of the scene file; empty if there was none.
   AssemblyPath path;
   std::vector<CertifiedPart> parts;
   std::vector<CertifiedPair> pairs;

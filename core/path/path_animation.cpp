@@ -1,6 +1,5 @@
 #include "core/path/path_animation.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -19,6 +18,7 @@
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/path/path_bodies.h"
+#include "core/report/gltf_format.h"
 
 namespace nearfit {
 namespace {
@@ -26,16 +26,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "binary files are written as memory has them");
 
 using GltfJson = nlohmann::ordered_json;
-
-/// Numbers of the glTF 2.0 specification.
-constexpr int kGltfFloat = 5126, kGltfUnsignedInt = 5125, kVertexTarget = 34962, kIndexTarget = 34963;
-constexpr std::uint32_t kGlbMagic = 0x46546C67U, kGlbVersion = 2, kJsonChunk = 0x4E4F534AU,
-                        kBinaryChunk = 0x004E4942U;
-
-double linearOf(float srgb) {
-  const double c = std::clamp(static_cast<double>(srgb), 0.0, 1.0);
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
 
 GltfJson vectorJson(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
@@ -88,12 +78,12 @@ class GlbBuilder {
                        "hide parts that are not needed");
     std::string file;
     file.reserve(total);
-    for (const std::uint32_t word : {kGlbMagic, kGlbVersion, static_cast<std::uint32_t>(total),
-                                     static_cast<std::uint32_t>(text.size()), kJsonChunk})
+    for (const std::uint32_t word : {gltf::kGlbMagic, gltf::kGlbVersion, static_cast<std::uint32_t>(total),
+                                     static_cast<std::uint32_t>(text.size()), gltf::kJsonChunk})
       appendWord(file, word);
     file += text;
     appendWord(file, static_cast<std::uint32_t>(data_.size()));
-    appendWord(file, kBinaryChunk);
+    appendWord(file, gltf::kBinaryChunk);
     return file + data_;
   }
 
@@ -130,13 +120,13 @@ class GlbBuilder {
     const auto known = meshOf_.find(key);
     if (known != meshOf_.end()) return known->second;
     const Shape shape = shapeOf(*part.geometry);
-    GltfJson material = {
-        {"pbrMetallicRoughness",
-         {{"baseColorFactor",
-           {linearOf(part.colour.r), linearOf(part.colour.g), linearOf(part.colour.b), part.opacity}},
-          {"metallicFactor", 0.1},
-          {"roughnessFactor", 0.6}}},
-        {"doubleSided", true}};
+    GltfJson material = {{"pbrMetallicRoughness",
+                          {{"baseColorFactor",
+                            {gltf::linearOf(part.colour.r), gltf::linearOf(part.colour.g),
+                             gltf::linearOf(part.colour.b), part.opacity}},
+                           {"metallicFactor", 0.1},
+                           {"roughnessFactor", 0.6}}},
+                         {"doubleSided", true}};
     if (part.opacity < 1.0) material["alphaMode"] = "BLEND";
     materials_.push_back(std::move(material));
     GltfJson primitive;
@@ -170,11 +160,11 @@ class GlbBuilder {
     }
     Shape shape;
     shape.positions =
-        addAccessor({positions, ends, kVertexTarget}, kGltfFloat, mesh.vertices().size(), "VEC3");
+        addAccessor({positions, ends, gltf::kArrayTarget}, gltf::kFloatType, mesh.vertices().size(), "VEC3");
     // They must be those of the numbers in the buffer.
     accessors_.back()["min"] = vectorJson(box.lower);
     accessors_.back()["max"] = vectorJson(box.upper);
-    shape.indices = addAccessor({ends, data_.size(), kIndexTarget}, kGltfUnsignedInt,
+    shape.indices = addAccessor({ends, data_.size(), gltf::kIndexTarget}, gltf::kUint32Type,
                                 3 * mesh.triangles().size(), "SCALAR");
     return shapeOf_[&geometry] = shape;
   }
@@ -211,11 +201,13 @@ class GlbBuilder {
       for (const double value : {q.x, q.y, q.z, q.w})
         append(static_cast<float>(value));
     }
-    const std::size_t input = addAccessor({begin, afterTimes, 0}, kGltfFloat, times.size(), "SCALAR");
+    const std::size_t input = addAccessor({begin, afterTimes, 0}, gltf::kFloatType, times.size(), "SCALAR");
     accessors_.back()["min"] = GltfJson::array({static_cast<double>(times.front())});
     accessors_.back()["max"] = GltfJson::array({static_cast<double>(times.back())});
-    const std::size_t shifts = addAccessor({afterTimes, afterShifts, 0}, kGltfFloat, times.size(), "VEC3");
-    const std::size_t turns = addAccessor({afterShifts, data_.size(), 0}, kGltfFloat, times.size(), "VEC4");
+    const std::size_t shifts =
+        addAccessor({afterTimes, afterShifts, 0}, gltf::kFloatType, times.size(), "VEC3");
+    const std::size_t turns =
+        addAccessor({afterShifts, data_.size(), 0}, gltf::kFloatType, times.size(), "VEC4");
     GltfJson samplers = GltfJson::array(), channels = GltfJson::array();
     for (const auto& [output, what] : {std::pair(shifts, "translation"), std::pair(turns, "rotation")}) {
       GltfJson sampler;

@@ -23,22 +23,15 @@ constexpr double kPlaceRounding = 1e-14;
 /// Travel is rounded up by this share: a hundred roundings.
 constexpr double kTravelRounding = 1.0 + 1e-13;
 
-bool hasTriangles(const Part& part) {
-  return part.geometry && !part.geometry->mesh.triangles().empty();
-}
-
 PathPart movingPartOf(const Scene::PartPtr& part, const RigidTransform& leadFromWorld,
                       const glm::dvec3& centre) {
   PathPart moving;
   moving.part = part;
   moving.leadFromPart = (leadFromWorld * part->worldFromPart).normalized();
   const TriangleMesh& mesh = part->geometry->mesh;
-  const Aabb& box = mesh.bounds();
-  for (unsigned i = 0; i < 8; ++i) {
-    const glm::dvec3 corner((i & 1U ? box.upper : box.lower).x, (i & 2U ? box.upper : box.lower).y,
-                            (i & 4U ? box.upper : box.lower).z);
-    moving.corners[i] = moving.leadFromPart.applyToPoint(corner) - centre;
-  }
+  moving.corners = mesh.bounds().corners();
+  for (glm::dvec3& corner : moving.corners)
+    corner = moving.leadFromPart.applyToPoint(corner) - centre;
   double squared = 0.0;
   const glm::dvec3 centreInPart = moving.leadFromPart.inverse().applyToPoint(centre);
   for (const Triangle& t : mesh.triangles()) {
@@ -48,7 +41,7 @@ PathPart movingPartOf(const Scene::PartPtr& part, const RigidTransform& leadFrom
     }
   }
   moving.radius = kTravelRounding * std::sqrt(squared) +
-                  kPlaceRounding * (box.largestCoordinate() + glm::length(centreInPart));
+                  kPlaceRounding * (mesh.bounds().largestCoordinate() + glm::length(centreInPart));
   return moving;
 }
 

@@ -22,13 +22,13 @@ struct PathPart {
   std::array<glm::dvec3, 8> corners{};
 };
 
-/// What a path moves, and what may be in the way. Keeps the parts of the scene.
+/// Parts that a path moves, and those that may be in the way. Keeps the parts of the scene.
 struct PathBodies {
   RigidTransform worldFromLead;  ///< In the scene.
-  std::vector<PathPart> moving;  ///< Those with triangles, of several only visible ones; in the path's order.
+  std::vector<PathPart> moving;  ///< Those with triangles, in the path's order; of several, the visible ones.
   /// All other visible parts with triangles, in scene order.
   std::vector<Scene::PartPtr> others;
-  double radius = 0.0;  ///< Of all moving parts.
+  double radius = 0.0;  ///< Largest radius of the moving parts.
 };
 
 /// Finds the parts of a path in a scene. Throws UsageError if one is not there, or none of them has triangles that can

@@ -1,20 +1,21 @@
 #include "core/path/path_certifier.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <mutex>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/parallel/lower_to.h"
 #include "core/parallel/parallel_for.h"
 #include "core/parallel/shared_progress.h"
+#include "core/parallel/work_spaces.h"
 #include "core/path/path_bodies.h"
 #include "core/proximity/overlap/interference.h"
 #include "core/proximity/surface/surface_distance.h"
@@ -48,31 +49,6 @@ struct OpenPiece {
   double reach = kNowhere;  ///< Travel that its first stretch probably covers to either side [m].
 };
 
-/// Scratch spaces, one for each thread that works.
-class ScratchPool {
- public:
-  template <class Work>
-  void with(const Work& work) {
-    std::unique_ptr<LmdScratch> scratch;
-    {
-      const std::scoped_lock lock(mutex_);
-      if (!free_.empty()) {
-        scratch = std::move(free_.back());
-        free_.pop_back();
-      }
-    }
-    // The traversal's stack is all that distances need.
-    if (!scratch) scratch = std::make_unique<LmdScratch>(1);
-    work(*scratch);
-    const std::scoped_lock lock(mutex_);
-    free_.push_back(std::move(scratch));
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<LmdScratch>> free_;
-};
-
 /// A moving part and another one.
 struct MovingPair {
   const PathPart* part = nullptr;
@@ -85,13 +61,6 @@ struct Grazing {
   double distance = 0.0;
   bool isInside = false;
 };
-
-/// Lowers an atomic to a value.
-void lowerTo(std::atomic<double>& least, double value) noexcept {
-  double now = least.load();
-  while (value < now && !least.compare_exchange_weak(now, value)) {
-  }
-}
 
 /// Proves one pair free along a path.
 class PairAdvance {
@@ -178,7 +147,7 @@ class PairAdvance {
   double distanceAt(double place, double enough, LmdScratch& scratch) const {
     const NormalConeTree &other = pair_.other->geometry->tree(), &part = pair_.part->part->geometry->tree();
     const double slack = slackAt(place) + other.deviation() + part.deviation();
-    // What the search takes off for its own rounding must not make far surfaces look near.
+    // The search subtracts its own rounding, which must not make far surfaces look near.
     constexpr double kSearchRounding = 1.0 + 1e-9;
     const double within = kSearchRounding * (enough + slack) +
                           1e-11 * (other.size() + part.size() + glm::length(poseOf(place).translation));
@@ -238,7 +207,8 @@ struct PathCertifier::Search {
   PathBodies bodies;
   std::vector<MovingPair> pairs;
   double separation = 0.0;
-  mutable ScratchPool scratches;
+  /// The traversal's stack is all that distances need.
+  mutable WorkSpaces<LmdScratch> scratches{[] { return std::make_unique<LmdScratch>(1); }};
 
   /// Work on one pair along a path.
   struct PairWork {
@@ -345,7 +315,7 @@ struct PathCertifier::Search {
 };
 
 double defaultSeparation(const Scene& scene, const AssemblyPath& path) {
-  // As for parts that touch: touchTolerance() in core/report/clearance.h.
+  // As for parts that touch: touchTolerance() in core/verdict/pair_separation.h.
   constexpr double kShare = 1e-6, kMax = 1e-6;
   double size = kNowhere;
   const PathBodies bodies = pathBodies(scene, path);

@@ -35,7 +35,7 @@ struct UnprovenPlace {
   bool isInside = false;  ///< True if one part is in the other, or meets it, at the start of the path.
 };
 
-/// What certifying a path gives.
+/// Result of certifying a path.
 struct PathProof {
   double separation = 0.0;       ///< [m]
   std::vector<PairProof> pairs;  ///< Empty if the path is not proven.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "core/math/aabb.h"
 #include "core/math/symmetric_eigen.h"
 #include "core/mesh/oriented_box.h"
+#include "core/parallel/lower_to.h"
 #include "core/parallel/parallel_for.h"
 #include "core/path/path_bodies.h"
 #include "core/path/path_shortening.h"
@@ -34,7 +36,7 @@ constexpr double kPrepared = 0.05;
 constexpr double kShorteningTime = 0.5;
 /// Gap of the boxes at which what moves is out, in radii: enough to see.
 constexpr double kOutGap = 0.05;
-/// What is within this many radii at the start tells where what moves can go.
+/// Surfaces within this many radii at the start tell where the moving parts can go.
 constexpr double kFeltAround = 0.05;
 /// Directions nearer to each other than this cosine count once.
 constexpr double kSameDirection = 0.9999;
@@ -84,17 +86,12 @@ class SearchClock {
   std::atomic<bool> isCancelled_{false};
 };
 
-void addBox(Aabb& box, const Aabb& own, const RigidTransform& worldFromOwn) {
-  for (unsigned corner = 0; corner < 8; ++corner)
-    box.add(worldFromOwn.applyToPoint({(corner & 1U ? own.upper : own.lower).x,
-                                       (corner & 2U ? own.upper : own.lower).y,
-                                       (corner & 4U ? own.upper : own.lower).z}));
-}
-
 Aabb boxOfOthers(const PathBodies& bodies) {
   Aabb box;
-  for (const Scene::PartPtr& other : bodies.others)
-    addBox(box, other->geometry->mesh.bounds(), other->worldFromPart);
+  for (const Scene::PartPtr& other : bodies.others) {
+    for (const glm::dvec3& corner : other->geometry->mesh.bounds().corners())
+      box.add(other->worldFromPart.applyToPoint(corner));
+  }
   return box;
 }
 
@@ -148,7 +145,7 @@ class Directions {
   std::vector<glm::dvec3> all_;
 };
 
-/// What moves drawn along a direction.
+/// Result of drawing the moving parts along a direction.
 struct Drawn {
   PoseWay way;
   bool isAtGoal = false;
@@ -341,9 +338,7 @@ class PathSearch {
       if (i > first.load()) return;
       const Task& task = tasks[i];
       all[i] = drawnFrom(task.from, task.toward, task.isTowed, task.isFromStart);
-      std::size_t before = first.load();
-      while (all[i].isAtGoal && i < before && !first.compare_exchange_weak(before, i)) {
-      }
+      if (all[i].isAtGoal) lowerTo(first, i);
     });
     result_.directions = tasks.size();
     if (first < tasks.size()) return all[first].way;
@@ -426,9 +421,7 @@ class PathSearch {
       }
       plans[i].work = mine.work();
       if (plans[i].plan.way.empty()) return;
-      std::uint64_t before = least.load();
-      while (plans[i].work < before && !least.compare_exchange_weak(before, plans[i].work)) {
-      }
+      lowerTo(least, plans[i].work);
     });
     std::size_t best = kMethods.size();
     for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -480,8 +473,8 @@ class PathSearch {
   SearchClock clock_;
   Aabb others_;
   double gap_;
-  RigidTransform start_;               ///< Of the centre.
-  std::optional<RigidTransform> end_;  ///< Of the centre.
+  RigidTransform start_;               ///< Pose of the centre at the start.
+  std::optional<RigidTransform> end_;  ///< And at the goal.
   std::vector<glm::dvec3> startDirections_, goalDirections_;
   std::vector<PoseWay> startWays_, goalWays_;
   std::mutex mutex_;

@@ -37,7 +37,7 @@ constexpr double kMaxSearchSeconds = 86'400.0;
 enum class PathSearchEnd : std::uint8_t {
   Found,
   NotFound,      ///< Which does not mean that there is none.
-  StartNotFree,  ///< What moves starts nearer to another part than the separation, or meets it.
+  StartNotFree,  ///< A moving part starts nearer to another part than the separation, or meets it.
   GoalNotFree,   ///< The same at the goal.
 };
 
@@ -49,7 +49,7 @@ enum class PathSearchMethod : std::uint8_t {
   ConnectedTrees  ///< planByConnecting(): RRT-Connect.
 };
 
-/// What a search found, and what it tried.
+/// Result of a search, and its effort.
 struct PathSearchResult {
   PathSearchEnd end = PathSearchEnd::NotFound;
   double separation = 0.0;  ///< [m]
@@ -79,7 +79,7 @@ struct PathSearchResult {
 PathSearchResult searchPath(const Scene& scene, const PathGoal& goal, const PathSearchOptions& options,
                             const ProgressCallback& progress = {});
 
-/// What a search came to, in sentences for the user.
+/// Describes the result of a search in sentences for the user.
 /// @param length  A length [m] with its unit.
 std::string describePathSearch(const Scene& scene, const PathGoal& goal, const PathSearchResult& result,
                                const std::function<std::string(double)>& length);

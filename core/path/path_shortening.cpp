@@ -1,14 +1,11 @@
 #include "core/path/path_shortening.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 
-#include "core/math/rotation_vector.h"
 #include "core/path/path_thinning.h"
 #include "core/planning/pose_sampler.h"
 
@@ -30,13 +27,9 @@ constexpr double kLeastShortcut = 1e-3;
 /// not show.
 constexpr double kAnyDeviation = 1e6, kUnseenDeviation = 1e-4;
 
-double turnOf(const RigidTransform& from, const RigidTransform& to) {
-  return glm::length(rotationVector(glm::conjugate(from.rotation) * to.rotation));
-}
-
 double motionLength(const RigidTransform& from, const RigidTransform& to, const glm::dvec3& centre,
                     double radius) {
-  return glm::distance(from.applyToPoint(centre), to.applyToPoint(centre)) + radius * turnOf(from, to);
+  return glm::distance(from.applyToPoint(centre), to.applyToPoint(centre)) + radius * turnBetween(from, to);
 }
 
 /// Lengths of a path up to each pose.
@@ -63,7 +56,7 @@ Shortcut randomShortcut(const AssemblyPath& path, const std::vector<double>& len
     return lengths[i] + (place - static_cast<double>(i)) * (lengths[i + 1] - lengths[i]);
   };
   const RigidTransform from = poseAt(path, out.from), to = poseAt(path, out.to);
-  if (turnOf(from, to) > kMaxTimedTurn) return out;
+  if (turnBetween(from, to) > kMaxTimedTurn) return out;
   out.gain = lengthAt(out.to) - lengthAt(out.from) - motionLength(from, to, path.centre, radius);
   return out;
 }
@@ -116,7 +109,7 @@ AssemblyPath timedPath(const AssemblyPath& frame, const std::vector<RigidTransfo
     const RigidTransform before = path.poses.back().worldFromLead;
     const double length = motionLength(before, pose, frame.centre, radius);
     if (length <= kSamePose * radius && &pose != &poses.back()) continue;
-    const bool isHalved = turnOf(before, pose) > kMaxTimedTurn;
+    const bool isHalved = turnBetween(before, pose) > kMaxTimedTurn;
     if (isHalved) add(poseBetween(before, pose, frame.centre, 0.5), 0.5 * length);
     // The last pose is the goal's, to the bit.
     add(pose, std::max(isHalved ? 0.5 * length : length, kSamePose * radius));

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/gtc/quaternion.hpp>
 
 #include "core/base/error.h"
-#include "core/math/rotation_vector.h"
 
 namespace nearfit {
 namespace {
@@ -71,8 +68,7 @@ class PathThinner {
     const PathPose &from = path_.poses[span.from], &to = path_.poses[span.to];
     Worst worst{span.from + (span.to - span.from) / 2, 0.0};
     if (span.to - span.from < 2) return worst;
-    const glm::dquat turn = glm::conjugate(from.worldFromLead.rotation) * to.worldFromLead.rotation;
-    if (glm::length(rotationVector(turn)) > kMaxPathTurn)
+    if (turnBetween(from.worldFromLead, to.worldFromLead) > kMaxPathTurn)
       return {worst.pose, std::numeric_limits<double>::infinity()};
     for (std::size_t i = span.from + 1; i < span.to; ++i) {
       const PathPose& pose = path_.poses[i];

@@ -1,7 +1,6 @@
 #include "core/path/path_verifier.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -10,7 +9,6 @@
 #include <memory>
 #include <numbers>
 #include <numeric>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,12 +18,17 @@
 
 #include "core/base/error.h"
 #include "core/math/aabb.h"
+#include "core/parallel/lower_to.h"
 #include "core/parallel/parallel_for.h"
 #include "core/parallel/shared_progress.h"
 #include "core/path/triangle_boxes.h"
 
 namespace nearfit {
 namespace {
+
+bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
+  return a.translation == b.translation && a.rotation == b.rotation;
+}
 
 /// Travel is rounded up by this share, and poses by this of the lengths involved: far below the slack that certifiers
 /// leave (path_certifier.cpp), far above rounding.
@@ -70,7 +73,7 @@ class WayLength {
     const double radius = std::sqrt(squaredRadius);
     for (std::size_t i = 1; i < path.poses.size(); ++i) {
       const RigidTransform &a = path.poses[i - 1].worldFromLead, &b = path.poses[i].worldFromLead;
-      const bool isStill = a.translation == b.translation && a.rotation == b.rotation;
+      const bool isStill = isSamePose(a, b);
       sums_.push_back(sums_.back() +
                       (isStill ? 0.0 : lengthBetween(a, b, path.centre, part, centre, radius)));
     }
@@ -242,7 +245,7 @@ class CertificateCheck {
     parallelWays();
   }
 
-  /// What is wrong with the order of pairs and the stretches themselves; empty if nothing is.
+  /// Says how the order of pairs or a stretch is wrong; empty if neither is.
   std::string formProblem() const {
     std::size_t next = 0;
     for (std::size_t part = 0; part < moving_; ++part) {
@@ -301,9 +304,7 @@ class CertificateCheck {
       // Behind a problem nothing matters.
       for (std::size_t i = block * kStretchesAtOnce; i < end && i < firstProblem.load(); ++i) {
         if (isProven(claims[i], waiting)) continue;
-        std::size_t known = firstProblem.load();
-        while (i < known && !firstProblem.compare_exchange_weak(known, i)) {
-        }
+        lowerTo(firstProblem, i);
       }
       done.add(1.0);
     });
@@ -329,7 +330,7 @@ class CertificateCheck {
     const RigidTransform worldFromPart = poseAt(certificate_.path, place) * parts_[pair.part].pose;
     return (parts_[pair.other].pose.inverse() * worldFromPart).normalized();
   }
-  /// What rounding of that pose may move a point by [m].
+  /// Max distance by which rounding of that pose may move a point [m].
   double roundingOf(const CertifiedPair& pair, double place) const {
     const JudgedPart &part = parts_[pair.part], &other = parts_[pair.other];
     return kPoseShare * (glm::length(other.pose.translation) + glm::length(part.pose.translation) +
@@ -423,11 +424,7 @@ class CertificateCheck {
   std::map<const Triangle*, std::unique_ptr<const TriangleBoxes>> trees_;
 };
 
-bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
-  return a.translation == b.translation && a.rotation == b.rotation;
-}
-
-/// What differs between the parts of a certificate and those of the scene; empty if nothing does.
+/// Says how the parts of a certificate differ from those of the scene; empty if they do not.
 std::string partsProblem(const std::vector<CertifiedPart>& certified,
                          const std::vector<CertifiedPart>& present) {
   for (std::size_t i = 0; i < std::min(certified.size(), present.size()); ++i) {

@@ -10,9 +10,9 @@
 
 namespace nearfit {
 
-/// What a verification found.
+/// Result of a verification.
 struct Verification {
-  /// What differs, or what is not proven, and where; empty if everything is proven.
+  /// The first difference, or the first place that is not proven, in words; empty if everything is proven.
   std::string problem;
   std::size_t stretches = 0;  ///< Number of stretches that were proven anew.
 

@@ -1,7 +1,6 @@
 #include "core/path/sliding_motions.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -193,7 +192,7 @@ void SlidingMotions::look(const RigidTransform& pose, double within) {
     for (const Scene::PartPtr& other : space_.bodies.others)
       lookAt(moving, *other, worldFromLead, within);
   }
-  // What does not fit into the program should be what is farthest.
+  // If not all fit into the program, the farthest are left out.
   std::ranges::sort(near_, {}, &NearPoints::distance);
 }
 

@@ -15,7 +15,7 @@
 
 namespace nearfit {
 
-/// What slides among what.
+/// Bodies that slide among others, and how they may move.
 struct SlidingSpace {
   const PathBodies& bodies;
   const PathCertifier& certifier;  ///< Of the same bodies.

@@ -1,7 +1,6 @@
 #include "core/path/triangle_boxes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -59,16 +58,12 @@ glm::dvec3 awayFromSide(const TriangleCorners& t, std::size_t i, const glm::dvec
   return squared > 0.0 ? way - side * (glm::dot(side, way) / squared) : way;
 }
 
-/// The halves of a box as a frame sees it that is turned by a matrix.
-glm::dvec3 turnedHalf(const glm::dmat3& absolute, const glm::dvec3& half) noexcept {
-  return absolute * half;
-}
-
 double squaredBeyond(const glm::dvec3& between, const glm::dvec3& reach) noexcept {
   const glm::dvec3 beyond = glm::max(glm::abs(between) - reach, glm::dvec3(0.0));
   return glm::dot(beyond, beyond);
 }
 
+/// Turns half extents of a box into those that the other frame sees.
 glm::dmat3 absoluteOf(const glm::dmat3& m) noexcept {
   return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};
 }
@@ -169,8 +164,8 @@ bool TriangleBoxes::isApart(const TriangleBoxes& part, const RigidTransform& thi
     waiting.pop_back();
     const Node &a = nodes_[mine], &b = part.nodes_[its];
     const glm::dvec3 between = turn * b.centre + shift - a.centre;
-    if (squaredBeyond(between, a.half + turnedHalf(absolute, b.half)) >= squaredNeeded) continue;
-    if (squaredBeyond(back * between, b.half + turnedHalf(absoluteBack, a.half)) >= squaredNeeded) continue;
+    if (squaredBeyond(between, a.half + absolute * b.half) >= squaredNeeded) continue;
+    if (squaredBeyond(back * between, b.half + absoluteBack * a.half) >= squaredNeeded) continue;
     if (a.child == 0 && b.child == 0) {
       for (std::uint32_t k = b.first; k < b.first + b.count; ++k) {
         const TriangleCorners& own = part.corners_[k];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -52,12 +51,11 @@ class PictureMap {
 
 /// True if a box of places is outside the picture.
 bool isOutside(std::span<const glm::dvec3> places, const Raster& raster) noexcept {
-  glm::dvec3 lower = places.front(), upper = lower;
-  for (const glm::dvec3& p : places) {
-    lower = glm::min(lower, p);
-    upper = glm::max(upper, p);
-  }
-  return upper.x < 0.0 || upper.y < 0.0 || lower.x > raster.width() || lower.y > raster.height();
+  Aabb box;
+  for (const glm::dvec3& p : places)
+    box.add(p);
+  return box.upper.x < 0.0 || box.upper.y < 0.0 || box.lower.x > raster.width() ||
+         box.lower.y > raster.height();
 }
 
 void drawEdges(const DrawnShapes::Shape& shape, const std::vector<glm::dvec3>& places, Raster& raster) {
@@ -143,12 +141,10 @@ PictureView fitted(const PictureView& view, std::span<const glm::dvec3> points, 
   const auto inView = [&](const glm::dvec3& p) {
     return glm::dvec3(glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, away));
   };
-  glm::dvec3 lower = inView(points.front()), upper = lower;
-  for (const glm::dvec3& point : points) {
-    lower = glm::min(lower, inView(point));
-    upper = glm::max(upper, inView(point));
-  }
-  const glm::dvec3 middle = lower + 0.5 * (upper - lower), size = upper - lower;
+  Aabb box;
+  for (const glm::dvec3& point : points)
+    box.add(inView(point));
+  const glm::dvec3 middle = box.centre(), size = box.upper - box.lower;
   PictureView result = view;
   result.centre = middle.x * view.right + middle.y * view.up + middle.z * away;
   const double needed = std::max(size.x, size.y * width / height) / (1.0 - 2.0 * kRim);
@@ -158,14 +154,9 @@ PictureView fitted(const PictureView& view, std::span<const glm::dvec3> points, 
 }
 
 std::array<glm::dvec3, 8> boxCorners(const TriangleMesh& mesh, const RigidTransform& worldFromPart) noexcept {
-  const Aabb& box = mesh.bounds();
-  std::array<glm::dvec3, 8> corners{};
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const glm::dvec3 corner((i & 1U) != 0 ? box.upper.x : box.lower.x,
-                            (i & 2U) != 0 ? box.upper.y : box.lower.y,
-                            (i & 4U) != 0 ? box.upper.z : box.lower.z);
-    corners[i] = worldFromPart.applyToPoint(corner);
-  }
+  std::array<glm::dvec3, 8> corners = mesh.bounds().corners();
+  for (glm::dvec3& corner : corners)
+    corner = worldFromPart.applyToPoint(corner);
   return corners;
 }
 

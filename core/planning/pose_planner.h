@@ -41,7 +41,7 @@ class PoseMotions {
 /// Poses that follow each other, with a free motion between each two.
 using PoseWay = std::vector<RigidTransform>;
 
-/// What a planner is asked for.
+/// Question to a planner.
 struct PoseQuery {
   PoseBounds bounds;
   RigidTransform start;
@@ -53,7 +53,7 @@ struct PoseQuery {
   std::uint64_t seed = 1;
 };
 
-/// What a planner found.
+/// Answer of a planner.
 struct PosePlan {
   PoseWay way;            ///< From the start to a goal; empty if none was found.
   std::size_t poses = 0;  ///< Number of poses that it reached, from the start and from goals.

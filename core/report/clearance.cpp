@@ -52,10 +52,6 @@ PartClearance clearanceOf(const Part& part, const Part& other, double cutoff, Wo
   return result;
 }
 
-bool hasSurface(const Part& part) {
-  return part.geometry && !part.geometry->mesh.triangles().empty();
-}
-
 /// Puts a further part of a body into its clearance to another one.
 void include(const PartClearance& added, PartClearance& all) {
   const auto rank = [](const PartClearance& c) { return c.isOverlapping() ? 0 : c.isTouching ? 1 : 2; };
@@ -74,7 +70,7 @@ std::vector<const Part*> surfacesOf(const Scene& scene, const std::vector<PartId
   for (const PartId id : body) {
     const Part* part = scene.find(id);
     if (part == nullptr) throw UsageError("clearance", "there is no such part", "choose a part of the scene");
-    if (hasSurface(*part) && (part->isVisible || body.size() == 1)) parts.push_back(part);
+    if (hasTriangles(*part) && (part->isVisible || body.size() == 1)) parts.push_back(part);
   }
   return parts;
 }
@@ -99,7 +95,7 @@ std::vector<PartClearance> clearancesOf(const Scene& scene, const std::vector<Pa
   double done = 0.0;
   const double all = static_cast<double>(scene.parts().size()) * static_cast<double>(parts.size());
   for (const Scene::PartPtr& other : scene.parts()) {
-    const bool isAsked = !own.contains(other->id) && other->isVisible && hasSurface(*other);
+    const bool isAsked = !own.contains(other->id) && other->isVisible && hasTriangles(*other);
     std::optional<PartClearance> sum;
     for (const Part* part : parts) {
       if (progress && !progress(done++ / all)) throw Cancelled();

@@ -48,7 +48,8 @@ std::vector<PartClearance> clearancesOf(const Scene& scene, const std::vector<Pa
                                         const ProgressCallback& progress = {});
 
 /// Updates clearances of the moving part, or of the moving group, from a servo tick, for pairs of solids within its
-/// cutoff. Other pairs stay unchanged, as do parts that overlap the moving one, and all where that is not known. Fast enough for the GUI thread.
+/// cutoff. Leaves other pairs as they are, also parts that overlap the moving one; leaves all if the tick does not know
+/// which overlap. Fast enough for the GUI thread.
 void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clearances) noexcept;
 
 /// "no", "surfaces meet", "inside the other" or "the other inside".

@@ -1,8 +1,6 @@
 #include "core/report/glb_export.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -20,6 +18,7 @@
 #include "core/mesh/flat_groups.h"
 #include "core/mesh/shaded_mesh.h"
 #include "core/report/assembly_tree.h"
+#include "core/report/gltf_format.h"
 #include "core/report/mesh_file.h"
 
 namespace nearfit {
@@ -27,11 +26,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Numbers that the specification gives.
-constexpr std::uint32_t kGlbMagic = 0x46546C67, kGlbVersion = 2, kJsonChunk = 0x4E4F534A,
-                        kBinaryChunk = 0x004E4942;
-constexpr int kFloatType = 5126, kUint16Type = 5123, kUint32Type = 5125, kArrayTarget = 34962,
-              kIndexTarget = 34963, kTrianglesMode = 4;
 /// An index of all ones has a meaning of its own: meshes of fewer vertices have indices of 16 bits.
 constexpr std::size_t kMaxShortVertices = std::numeric_limits<std::uint16_t>::max();
 constexpr std::uint64_t kGlbHeadBytes = 12, kChunkHeadBytes = 8;
@@ -102,12 +96,6 @@ glm::vec3 normalOf(const GlbGeometry& geometry, std::size_t vertex) {
   return length > 0.5 ? glm::vec3(normal / length) : glm::vec3(0.0F, 0.0F, 1.0F);
 }
 
-/// Linear value of an sRGB channel. Source: IEC 61966-2-1.
-double linearOf(float srgb) {
-  const double c = std::clamp(static_cast<double>(srgb), 0.0, 1.0);
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
 Json vectorJson(const glm::vec3& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
@@ -160,24 +148,24 @@ class GlbDocument {
       lower = glm::min(lower, positionOf(geometry, i));
       upper = glm::max(upper, positionOf(geometry, i));
     }
-    Json positions = {{"bufferView", addView(geometry.vertexBytes(), kArrayTarget)},
-                      {"componentType", kFloatType},
+    Json positions = {{"bufferView", addView(geometry.vertexBytes(), gltf::kArrayTarget)},
+                      {"componentType", gltf::kFloatType},
                       {"count", count},
                       {"type", "VEC3"}};
     positions["min"] = vectorJson(lower);
     positions["max"] = vectorJson(upper);
     geometry.positions = addAccessor(std::move(positions));
-    geometry.normals = addAccessor({{"bufferView", addView(geometry.vertexBytes(), kArrayTarget)},
-                                    {"componentType", kFloatType},
+    geometry.normals = addAccessor({{"bufferView", addView(geometry.vertexBytes(), gltf::kArrayTarget)},
+                                    {"componentType", gltf::kFloatType},
                                     {"count", count},
                                     {"type", "VEC3"}});
-    const std::size_t view = addView(geometry.indexBytes(), kIndexTarget);
+    const std::size_t view = addView(geometry.indexBytes(), gltf::kIndexTarget);
     const std::size_t size = geometry.hasShortIndices() ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
     for (const ColourRun& run : geometry.runs) {
       geometry.indices.push_back(
           addAccessor({{"bufferView", view},
                        {"byteOffset", 3 * size * run.first},
-                       {"componentType", geometry.hasShortIndices() ? kUint16Type : kUint32Type},
+                       {"componentType", geometry.hasShortIndices() ? gltf::kUint16Type : gltf::kUint32Type},
                        {"count", 3 * run.count},
                        {"type", "SCALAR"}}));
     }
@@ -189,7 +177,8 @@ class GlbDocument {
     if (!isNew) return at->second;
     Json material = {
         {"pbrMetallicRoughness",
-         {{"baseColorFactor", {linearOf(colour[0]), linearOf(colour[1]), linearOf(colour[2]), opacity}},
+         {{"baseColorFactor",
+           {gltf::linearOf(colour[0]), gltf::linearOf(colour[1]), gltf::linearOf(colour[2]), opacity}},
           {"metallicFactor", 0.0},
           {"roughnessFactor", kGlbRoughness}}}};
     if (opacity < 1.0) material["alphaMode"] = "BLEND";
@@ -212,7 +201,7 @@ class GlbDocument {
       primitives.push_back({{"attributes", {{"POSITION", geometry.positions}, {"NORMAL", geometry.normals}}},
                             {"indices", geometry.indices[i]},
                             {"material", materialOf(geometry.runs[i].colour.value_or(own), opacity, isOpen)},
-                            {"mode", kTrianglesMode}});
+                            {"mode", gltf::kTrianglesMode}});
     }
     meshes_.push_back({{"name", geometryName(*part.geometry)}, {"primitives", std::move(primitives)}});
     return at->second;
@@ -305,14 +294,14 @@ MeshExportSize exportGlb(const Scene& scene, std::span<const Scene::PartPtr> par
                      "export fewer parts at a time");
   const ProgressCallback write = stageCallback(progress, kGlbShaded, 1.0);
   MeshFile out(file, steps, write);
-  out.append(kGlbMagic);
-  out.append(kGlbVersion);
+  out.append(gltf::kGlbMagic);
+  out.append(gltf::kGlbVersion);
   out.append(static_cast<std::uint32_t>(total));
   out.append(static_cast<std::uint32_t>(json.size()));
-  out.append(kJsonChunk);
+  out.append(gltf::kJsonChunk);
   out.text() += json;
   out.append(static_cast<std::uint32_t>(document.binaryBytes()));
-  out.append(kBinaryChunk);
+  out.append(gltf::kBinaryChunk);
   for (const GlbGeometry& geometry : geometries)
     writeGeometry(out, geometry);
   MeshExportSize size = meshExportSize(parts, MeshFileKind::StlBinary);

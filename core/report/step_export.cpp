@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstddef>
 #include <new>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/import/document_file.h"
+#include "core/import/document_import.h"
 #include "core/import/import_process.h"
 #include "core/report/assembly_tree.h"
 #include "core/scene/names.h"
@@ -25,23 +25,16 @@ namespace {
 constexpr double kStepSilence = 300.0;
 /// Progress once the program is done.
 constexpr double kStepMade = 0.95;
-/// Extensions of files with exact surfaces, without that of a compression.
-constexpr std::array<std::string_view, 5> kExactExtensions{".step", ".stp", ".iges", ".igs", ".brep"};
+/// Formats of files with exact surfaces.
+constexpr std::array<std::string_view, 5> kExactFormats{"step", "stp", "iges", "igs", "brep"};
 
-bool hasExactExtension(std::filesystem::path file) {
-  const auto extensionOfFile = [&] {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-  };
-  if (extensionOfFile() == ".gz") file = file.stem();
-  return std::ranges::find(kExactExtensions, extensionOfFile()) != kExactExtensions.end();
+bool isOfExactFormat(const std::filesystem::path& file) {
+  return std::ranges::find(kExactFormats, documentFormat(file)) != kExactFormats.end();
 }
 
 std::optional<StepSource> sourceOf(const PartGeometry& geometry) {
   if (!geometry.isExact || geometry.shapeKey.empty() || !geometry.repairs.empty() ||
-      !hasExactExtension(geometry.file))
+      !isOfExactFormat(geometry.file))
     return std::nullopt;
   return StepSource{geometry.file, geometry.sha256, geometry.shapeKey, geometry.metresPerUnit};
 }

@@ -12,7 +12,7 @@
 
 namespace nearfit {
 
-/// What a STEP file holds.
+/// Size of a STEP file that was written, and notes about it.
 struct StepExport {
   std::uint64_t bytes = 0;
   std::vector<std::string>
@@ -34,7 +34,7 @@ struct StepExport {
 StepExport exportStep(const Scene& scene, std::span<const Scene::PartPtr> parts, StepSchema schema,
                       const std::filesystem::path& file, const ProgressCallback& progress = {});
 
-/// What is asked of nearfit-export, for exportStep() and tests.
+/// Makes the request to nearfit-export, for exportStep() and tests.
 StepRequest stepRequest(const Scene& scene, std::span<const Scene::PartPtr> parts, StepSchema schema,
                         const std::string& name);
 

@@ -1,6 +1,5 @@
 #include "core/report/urdf_export.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <iterator>

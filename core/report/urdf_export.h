@@ -14,7 +14,7 @@ namespace nearfit {
 
 /// Files of a URDF export besides the URDF file.
 struct UrdfExport {
-  std::filesystem::path folder;               ///< Of the meshes: NAME_meshes beside NAME.urdf.
+  std::filesystem::path folder;               ///< Folder of the meshes: NAME_meshes beside NAME.urdf.
   std::vector<std::filesystem::path> meshes;  ///< One for each geometry.
 };
 

@@ -1,6 +1,5 @@
 #include "core/scene/document_content.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>

@@ -11,7 +11,7 @@
 
 namespace nearfit {
 
-/// What decides what a document shows: the bytes of its file and of its companions.
+/// Hashes of all that a document shows: the bytes of its file and of its companions.
 struct DocumentContent {
   std::string sha256;                                ///< Of the file itself.
   std::shared_ptr<const CompanionFiles> companions;  ///< Null if there are none.

@@ -25,8 +25,8 @@ namespace {
 constexpr std::array<std::pair<std::string_view, double>, 6> kMeshUnits{
     {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"um", 1e-6}, {"in", 0.0254}, {"ft", 0.3048}}};
 
-/// Of files without a unit, the most common first [m]. Rarer ones would cause wrong guesses, and tenths of a millimetre
-/// and centimetres are never nearer than millimetres by kRareUnit.
+/// Likely units of files that state none, the most common first [m]. Rarer ones would cause wrong guesses, and tenths of
+/// a millimetre and centimetres are never nearer than millimetres by kRareUnit.
 constexpr std::array kLikelyUnits{1e-3, 0.0254, 1.0, 1e-6};
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "core/scene/pair_rule.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "core/base/error.h"

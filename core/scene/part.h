@@ -82,6 +82,11 @@ bool differsOnlyInLookOrLock(const Part& a, const Part& b) noexcept;
 /// Min opacity: a part that can be felt must stay visible.
 constexpr double kMinOpacity = 0.05;
 
+/// True if the part has a surface that can be near another one.
+inline bool hasTriangles(const Part& part) noexcept {
+  return part.geometry && !part.geometry->mesh.triangles().empty();
+}
+
 /// Mass from density and mesh volume [kg]; 0 without geometry.
 double massOf(const Part& part) noexcept;
 

@@ -56,7 +56,7 @@ class SurfaceOnDemand {
 /// A file that a document was read from besides its own.
 struct CompanionFile {
   std::filesystem::path file;
-  std::string sha256;  ///< Of its bytes, hexadecimal.
+  std::string sha256;  ///< SHA-256 of its bytes, hexadecimal.
 };
 using CompanionFiles = std::vector<CompanionFile>;
 

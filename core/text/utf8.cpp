@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 namespace nearfit {
-namespace {
 
-/// Length of the UTF-8 character at the start of the text [bytes]; 0 if there is none.
-std::size_t characterLength(std::string_view text) noexcept {
+std::size_t utf8CharacterLength(std::string_view text) noexcept {
   const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const auto isContinuation = [&](std::size_t i, unsigned lower = 0x80, unsigned upper = 0xBF) {
     return i < text.size() && byte(i) >= lower && byte(i) <= upper;
@@ -26,9 +24,11 @@ std::size_t characterLength(std::string_view text) noexcept {
   return 0;
 }
 
-/// Like characterLength(), but 0 for control characters.
+namespace {
+
+/// Like utf8CharacterLength(), but 0 for control characters.
 std::size_t printableLength(std::string_view text) noexcept {
-  const std::size_t length = characterLength(text);
+  const std::size_t length = utf8CharacterLength(text);
   const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   if (length == 1 && (byte(0) < 0x20 || byte(0) == 0x7F)) return 0;
   if (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0) return 0;
@@ -47,7 +47,7 @@ bool consistsOf(std::size_t (*lengthOfFirst)(std::string_view) noexcept, std::st
 }  // namespace
 
 bool isUtf8(std::string_view text) noexcept {
-  return consistsOf(characterLength, text);
+  return consistsOf(utf8CharacterLength, text);
 }
 
 bool isPrintableUtf8(std::string_view text) noexcept {

@@ -10,6 +10,9 @@ namespace nearfit {
 /// The Unicode Standard 15, table 3-7.
 bool isUtf8(std::string_view text) noexcept;
 
+/// Length of the UTF-8 character at the start of the text [bytes]; 0 if there is none.
+std::size_t utf8CharacterLength(std::string_view text) noexcept;
+
 /// True if the text is well-formed UTF-8 without control characters (C0, DEL, C1).
 bool isPrintableUtf8(std::string_view text) noexcept;
 

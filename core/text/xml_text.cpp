@@ -10,14 +10,7 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
-/// Bytes of the character that begins the text, by its first one; 1 for what begins none.
-std::size_t characterBytes(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t size = first < 0xC0 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  return std::min(size, text.size());
-}
-
-/// What stands for a character; empty for itself.
+/// Reference that stands for a character; empty if it stands for itself.
 std::string_view referenceOf(std::string_view character) {
   if (character == "\xEF\xBF\xBE" || character == "\xEF\xBF\xBF") return kReplacement;
   if (character.size() != 1) return {};
@@ -49,14 +42,10 @@ std::string xmlText(std::string_view text) {
   std::string result;
   result.reserve(text.size());
   while (!text.empty()) {
-    std::string_view character = text.substr(0, characterBytes(text));
-    std::string_view written = character;
-    if (!isUtf8(character)) {
-      character = character.substr(0, 1);
-      written = kReplacement;
-    } else if (const std::string_view reference = referenceOf(character); !reference.empty()) {
-      written = reference;
-    }
+    const std::size_t length = utf8CharacterLength(text);
+    const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
+    const std::string_view reference = length == 0 ? kReplacement : referenceOf(character);
+    const std::string_view written = reference.empty() ? character : reference;
     result += written;
     text.remove_prefix(character.size());
   }

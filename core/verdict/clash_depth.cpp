@@ -132,7 +132,6 @@ class WayOut {
   }
 
   bool isSpent() const noexcept { return isStopped_ || nodePairs_ >= limits_.maxNodePairs; }
-  std::uint64_t nodePairs() const noexcept { return nodePairs_; }
   const StraightSweep& sweep() const noexcept { return sweep_; }
 
  private:
@@ -312,7 +311,7 @@ class DirectionSearch {
     vary();
     combine();
     if (!(best_.length < kInfinity)) return std::nullopt;
-    return ClashDepth{best_, false, way_.nodePairs()};
+    return ClashDepth{best_, false};
   }
 
  private:
@@ -488,7 +487,7 @@ std::optional<ClashDepth> findClashDepth(const DepthBody& scene, const DepthBody
     FreeingTranslation proven;
     if (shortest && WayOut(scene.tree, part.tree, sceneFromPart, limits)
                         .proveFreeAt(shortest->direction, shortest->length, proven))
-      return ClashDepth{*shortest, true, 0};
+      return ClashDepth{*shortest, true};
   }
   return DirectionSearch(scene, part, sceneFromPart, scratch, limits).run();
 }

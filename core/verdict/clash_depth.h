@@ -16,7 +16,6 @@ struct ClashDepth {
   FreeingTranslation translation;  ///< Moves the part; in the frame of the scene's mesh.
   /// True if no shorter one frees it; else the depth is at most its length.
   bool isExact = false;
-  std::uint64_t nodePairs = 0;  ///< Pairs of nodes examined.
 };
 
 /// A body as findClashDepth() needs it.

@@ -1,7 +1,6 @@
 #include "core/verdict/convex_depth.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <glm/geometric.hpp>
@@ -92,7 +91,6 @@ std::optional<ConvexBody> convexBodyOf(const TriangleMesh& mesh) {
   ConvexBody body;
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> cornerOf(mesh.vertices().size(), kNone);
-  std::vector<std::uint32_t> faceOf;
   for (const Triangle& t : mesh.triangles()) {
     for (const std::uint32_t v : t) {
       if (cornerOf[v] != kNone) continue;
@@ -104,7 +102,6 @@ std::optional<ConvexBody> convexBodyOf(const TriangleMesh& mesh) {
     const double length = glm::length(normal);
     // Without an area, it has no direction, and neither have its edges as it sees them.
     if (!(length > 0.0)) return std::nullopt;
-    faceOf.push_back(static_cast<std::uint32_t>(body.faces.size()));
     body.faces.push_back({normal / length, cornerOf[t[0]]});
   }
   const double slack = kConvexSlack * (mesh.bounds().diagonal() + mesh.bounds().largestCoordinate());
@@ -113,7 +110,7 @@ std::optional<ConvexBody> convexBodyOf(const TriangleMesh& mesh) {
   if (!isConvex || body.faces.empty()) return std::nullopt;
   for (std::uint32_t e = 0; e < mesh.edges().size(); ++e) {
     const auto faces = mesh.facesOfEdge(e);
-    const std::uint32_t left = faceOf[faces[0]], right = faceOf[faces[1]];
+    const std::uint32_t left = faces[0], right = faces[1];
     if (glm::length(body.faces[left].normal - body.faces[right].normal) < kOnePlaneAngle) continue;
     body.edges.push_back({cornerOf[mesh.edges()[e].v0], cornerOf[mesh.edges()[e].v1], left, right});
   }

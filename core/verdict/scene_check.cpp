@@ -20,6 +20,7 @@
 #include "core/parallel/low_priority.h"
 #include "core/parallel/parallel_for.h"
 #include "core/parallel/shared_progress.h"
+#include "core/parallel/work_spaces.h"
 #include "core/proximity/query/broad_phase.h"
 #include "core/proximity/tracking/lmd_set.h"
 #include "core/verdict/pair_separation.h"
@@ -70,29 +71,6 @@ struct CheckWork {
   LmdScratch scratch;
 };
 
-/// Lends work spaces to the threads of a loop; as many are made as run at a time.
-class CheckWorkPool {
- public:
-  explicit CheckWorkPool(std::size_t maxMinima) : maxMinima_(maxMinima) {}
-
-  std::unique_ptr<CheckWork> take() {
-    const std::lock_guard lock(mutex_);
-    if (free_.empty()) return std::make_unique<CheckWork>(maxMinima_);
-    std::unique_ptr<CheckWork> work = std::move(free_.back());
-    free_.pop_back();
-    return work;
-  }
-  void giveBack(std::unique_ptr<CheckWork> work) {
-    const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(work));
-  }
-
- private:
-  std::size_t maxMinima_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<CheckWork>> free_;
-};
-
 /// Two parts, by their indices in the request.
 struct NearPair {
   std::size_t part, other;
@@ -124,7 +102,7 @@ class SceneChecker {
       : request_(request),
         progress_(progress),
         rules_(request.rules, ruledParts(request)),
-        works_(request.maxMinima) {
+        works_([maxMinima = request.maxMinima] { return std::make_unique<CheckWork>(maxMinima); }) {
     if (!std::isfinite(request.threshold) || request.threshold < 0.0)
       throw UsageError("check", fmt::format("{} m is not a valid threshold", request.threshold),
                        "give a length of at least 0");
@@ -140,16 +118,13 @@ class SceneChecker {
   SceneCheck run() {
     const double start = buildHierarchies();
     const std::vector<NearPair> pairs = findNearPairs();
-    result_.nearBoxes = pairs.size();
     std::vector<NearPair> examples;
     const std::vector<std::size_t> exampleOf = groupPairs(pairs, examples);
     std::vector<std::optional<PairFinding>> found(examples.size());
     const ProgressCallback rest = stageCallback(progress_, start, 1.0);
     SharedProgress shared(rest, static_cast<double>(std::max<std::size_t>(examples.size(), 1)));
     parallelFor(examples.size(), [&](std::size_t i) {
-      std::unique_ptr<CheckWork> work = works_.take();
-      found[i] = findingOf(examples[i], *work, shared);
-      works_.giveBack(std::move(work));
+      works_.with([&](CheckWork& work) { found[i] = findingOf(examples[i], work, shared); });
       shared.add(1.0);
     });
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -365,7 +340,7 @@ class SceneChecker {
   const SceneCheckRequest& request_;
   const ProgressCallback& progress_;
   PairRules rules_;
-  CheckWorkPool works_;
+  WorkSpaces<CheckWork> works_;
   std::map<const PartGeometry*, std::size_t> shapeOf_;
   std::vector<std::unique_ptr<ClashShape>> shapes_;
   SceneCheck result_;
@@ -378,7 +353,7 @@ SceneCheckRequest sceneCheckRequest(const Scene& scene, double threshold) {
   request.threshold = threshold;
   request.rules = scene.pairRules();
   for (const Scene::PartPtr& part : scene.parts()) {
-    if (part->isVisible && part->geometry && !part->geometry->mesh.triangles().empty())
+    if (part->isVisible && hasTriangles(*part))
       request.parts.push_back({part->id, {part->name, part->group}, part->geometry, part->worldFromPart});
   }
   return request;

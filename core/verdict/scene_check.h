@@ -96,7 +96,6 @@ struct SceneCheck {
   std::vector<PartId> parts;          ///< Checked ones, in ascending order.
   std::vector<PairFinding> findings;  ///< For pairs within the threshold, in ascending order.
   std::vector<LeftOutPair> leftOut;   ///< Pairs whose boxes are within the threshold, in ascending order.
-  std::size_t nearBoxes = 0;          ///< Pairs that were compared: their boxes are within the threshold.
 
   /// All pairs of the parts, but those left out.
   std::size_t checkedPairs() const noexcept;

@@ -19,12 +19,13 @@ using std::numbers::pi;
 using RadiusAt = std::function<double(double angle, double z)>;
 
 /// Numbers of edges of a body about z.
-struct Grid {
+struct RoundGrid {
   std::uint32_t around, along;
 };
 
 /// Vertices of a surface about z between two heights, ring by ring.
-void addSurface(std::vector<glm::dvec3>& vertices, const RadiusAt& radius, double height, const Grid& grid) {
+void addSurface(std::vector<glm::dvec3>& vertices, const RadiusAt& radius, double height,
+                const RoundGrid& grid) {
   for (std::uint32_t k = 0; k <= grid.along; ++k) {
     const double z = height * (static_cast<double>(k) / grid.along - 0.5);
     for (std::uint32_t i = 0; i < grid.around; ++i) {
@@ -45,7 +46,7 @@ void addBand(std::vector<Triangle>& triangles, std::uint32_t lower, std::uint32_
 }
 
 /// A solid about z.
-TriangleMesh roundedRod(const RadiusAt& radius, double height, const Grid& grid) {
+TriangleMesh roundedRod(const RadiusAt& radius, double height, const RoundGrid& grid) {
   std::vector<glm::dvec3> vertices;
   addSurface(vertices, radius, height, grid);
   std::vector<Triangle> triangles;
@@ -63,7 +64,7 @@ TriangleMesh roundedRod(const RadiusAt& radius, double height, const Grid& grid)
 }
 
 /// A tube about z with a shaped bore.
-TriangleMesh roundedBore(const RadiusAt& bore, double outer, double height, const Grid& grid) {
+TriangleMesh roundedBore(const RadiusAt& bore, double outer, double height, const RoundGrid& grid) {
   std::vector<glm::dvec3> vertices;
   addSurface(vertices, bore, height, grid);
   const auto low = static_cast<std::uint32_t>(vertices.size()), high = low + grid.around;
@@ -77,7 +78,7 @@ TriangleMesh roundedBore(const RadiusAt& bore, double outer, double height, cons
   return {std::move(vertices), std::move(triangles)};
 }
 
-PressedParts sphereInBowl(std::uint32_t fineness) {
+PressedParts ballInBowl(std::uint32_t fineness) {
   constexpr double kBowl = 0.03, kBall = 0.02;
   PressedParts parts;
   parts.scene = test::bowlMesh(kBowl, 0.036, 32 * fineness, 12 * fineness);
@@ -134,7 +135,7 @@ PressedParts nutOnThread(std::uint32_t fineness) {
 }  // namespace
 
 std::vector<CurvedScene> curvedScenes() {
-  return {{"ball-bowl", "a ball of 40 mm in a bowl of 60 mm", sphereInBowl},
+  return {{"ball-bowl", "a ball of 40 mm in a bowl of 60 mm", ballInBowl},
           {"wheels", "wheels of 40 mm with 20 rounded teeth, in mesh", wheelsInMesh},
           {"nut-thread", "a nut of 8 mm on a rounded thread, pitch 2 mm, 0.2 mm of play", nutOnThread}};
 }

@@ -19,7 +19,7 @@ namespace {
 struct SuggestBenchOptions {
   std::uint64_t seeds = 10;
   double seconds = 30.0;
-  /// Of each scene, the seeds that have to find a path.
+  /// Share of the seeds of each scene that have to find a path.
   double share = 0.9;
 };
 

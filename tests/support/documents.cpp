@@ -24,8 +24,8 @@ std::uint32_t sideOf(const TriangleMesh& box, const Triangle& t) {
   return 0;
 }
 
-DocumentImporter importerOf(FakeImporter::Make make, std::shared_ptr<std::atomic<int>> runs,
-                            std::function<void(const DocumentOptions&)> note) {
+DocumentImporter importerOf(const FakeImporter::Make& make, const std::shared_ptr<std::atomic<int>>& runs,
+                            const std::function<void(const DocumentOptions&)>& note) {
   return [=](const std::filesystem::path& file, const DocumentOptions& options,
              const ProgressCallback& progress) {
     ++*runs;

@@ -7,7 +7,7 @@
 
 namespace nearfit::test {
 
-/// What a PNG file shows.
+/// Picture of a PNG file.
 struct PngPicture {
   int width = 0, height = 0;
   std::vector<std::array<std::uint8_t, 3>> pixels;  ///< By rows from the top.

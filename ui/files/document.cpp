@@ -79,7 +79,7 @@ Aabb boxOf(const Scene& scene) {
   return box;
 }
 
-/// What a scene tells about the unit of files that are added to it.
+/// Hints of a scene about the unit of files that are added to it.
 UnitHints hintsOf(const Scene& scene) {
   UnitHints hints;
   const Aabb box = boxOf(scene);

@@ -129,7 +129,7 @@ class Document : public SceneWork {
   std::vector<std::function<void(bool isReady)>> waiting_;  ///< Unanswered prepareHierarchies() calls.
 };
 
-/// What is read before shapes are built of it, which decides how long it takes.
+/// Kind of files that are read before shapes are built of them, which decides how long it takes.
 enum class Reading { Meshes, Documents };
 /// Map the progress of reading, and of building shapes, to shares of `whole`: about half each for meshes. Documents are
 /// imported and meshed first, which takes most of the time.

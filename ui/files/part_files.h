@@ -97,7 +97,7 @@ class PartFiles : public QObject {
   void takeRepaired(const std::vector<PartId>& parts, const Repaired& repaired);
   /// The same part in another unit, from the content that its file had when it was read.
   static Wanted inUnit(const Part& part, double metresPerUnit);
-  /// Of the progress dialog.
+  /// Title and text of the progress dialog.
   struct ProgressText {
     QString title, text;
   };

@@ -13,7 +13,7 @@ namespace nearfit::ui {
 /// Length of a grown person's hand, wrist to fingertip: between the medians of women and men. Source: DIN 33402-2 [m].
 constexpr double kHandLength = 0.19;
 
-/// What is known where a unit is asked for.
+/// Facts that help to choose a unit.
 struct UnitHints {
   /// Extent of what is in the scene [m], shown for comparison beside a hand's; std::nullopt: nothing.
   std::optional<glm::dvec3> scene = {};

@@ -17,7 +17,7 @@ QString partNameIn(const Scene& scene, PartId id) {
   return QString::fromStdString(scene.get(id).name);
 }
 
-/// Max to min: 3 for a clash that no rule allows, 0 for what is gone.
+/// Highest for a clash that no rule allows; 0 for a pair that is clear now.
 int severityOf(const ShownFinding& row) {
   if (row.verdict == PairVerdict::Clear) return 0;
   if (row.isForbidden) return 3;
@@ -27,6 +27,11 @@ int severityOf(const ShownFinding& row) {
 bool isNumberColumn(int column) {
   return column == PairFindingsModel::Distance || column == PairFindingsModel::Depth ||
          column == PairFindingsModel::Volume;
+}
+
+QVariant alignmentOf(int column) {
+  return QVariant::fromValue<int>((isNumberColumn(column) ? Qt::AlignRight : Qt::AlignLeft) |
+                                  Qt::AlignVCenter);
 }
 
 }  // namespace
@@ -283,8 +288,7 @@ QVariant PairFindingsModel::data(const QModelIndex& index, int role) const {
     case kSortRole:
       return sortKeyOf(row, index.column());
     case Qt::TextAlignmentRole:
-      return QVariant::fromValue<int>((isNumberColumn(index.column()) ? Qt::AlignRight : Qt::AlignLeft) |
-                                      Qt::AlignVCenter);
+      return alignmentOf(index.column());
     case Qt::ForegroundRole:
       return colourOf(row, index.column());
     case Qt::ToolTipRole:
@@ -295,10 +299,9 @@ QVariant PairFindingsModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant PairFindingsModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal) return {};
-  if (role == Qt::TextAlignmentRole)
-    return QVariant::fromValue<int>((isNumberColumn(section) ? Qt::AlignRight : Qt::AlignLeft) |
-                                    Qt::AlignVCenter);
+  if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount) return {};
+  if (role == Qt::TextAlignmentRole) return alignmentOf(section);
+  if (role != Qt::DisplayRole && role != Qt::ToolTipRole) return {};
   const std::pair<QString, QString> texts[ColumnCount] = {
       {tr("Part"), tr("The part that is older in the scene")},
       {tr("Other part"), {}},
@@ -309,10 +312,7 @@ QVariant PairFindingsModel::headerData(int section, Qt::Orientation orientation,
       {tr("Change"), tr("Difference from the last check")},
       {tr("State"), tr("What you said about it")},
       {tr("Reason"), tr("Why it may stay")}};
-  if (section < 0 || section >= ColumnCount) return {};
-  if (role == Qt::DisplayRole) return texts[section].first;
-  if (role == Qt::ToolTipRole) return texts[section].second;
-  return {};
+  return role == Qt::DisplayRole ? texts[section].first : texts[section].second;
 }
 
 }  // namespace nearfit::ui

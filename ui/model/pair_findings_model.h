@@ -42,7 +42,7 @@ std::vector<ShownFinding> shownRecords(const Scene& scene);
 QString nameOf(PairVerdict verdict);
 QString nameOf(FindingState state);
 QString nameOf(FindingChange change);
-/// A rule in words, its length in the unit that the user chose: "Press fit: Bush* in Housing, up to 20 µm".
+/// A rule in words, its length in the unit that the user chose: "Press fit: Bush* and Housing, up to 20 µm".
 QString ruleText(const PairRule& rule);
 /// The depth with what is known of it: "1.20 mm", "at most 1.20 mm"; empty if there is none.
 QString depthText(const ShownFinding& finding);

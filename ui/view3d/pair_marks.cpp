@@ -13,8 +13,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr MarkActors::Look kCurveLook{.lineWidth = 3.5F, .pointSize = 8.0F};
-constexpr MarkActors::Look kArrowLook{.lineWidth = 3.5F, .pointSize = 8.0F};
+constexpr MarkActors::Look kPairLook{.lineWidth = 3.5F, .pointSize = 8.0F};
 /// Length and radius of the arrow's head, as shares of the arrow.
 constexpr double kHeadLength = 0.25, kHeadRadius = 0.08;
 constexpr int kHeadSides = 12;
@@ -22,6 +21,15 @@ constexpr int kHeadSides = 12;
 const std::vector<std::vector<glm::dvec3>>& curvesOf(const PairFinding& finding) {
   static const std::vector<std::vector<glm::dvec3>> kNone;
   return finding.clash ? finding.clash->curves : kNone;
+}
+
+Aabb curvesBox(const PairFinding& finding) {
+  Aabb box;
+  for (const std::vector<glm::dvec3>& curve : curvesOf(finding)) {
+    for (const glm::dvec3& point : curve)
+      box.add(point);
+  }
+  return box;
 }
 
 void addHead(const FreeingArrow& arrow, MarkCells& faces) {
@@ -43,21 +51,13 @@ void addHead(const FreeingArrow& arrow, MarkCells& faces) {
 }  // namespace
 
 FreeingArrow freeingArrow(const PairFinding& finding) {
-  Aabb met;
-  for (const std::vector<glm::dvec3>& curve : curvesOf(finding)) {
-    for (const glm::dvec3& point : curve)
-      met.add(point);
-  }
+  const Aabb met = curvesBox(finding);
   const glm::dvec3 from = met.isEmpty() ? finding.partPoint : met.centre();
   return {from, from + finding.clash->freeing->length * finding.clash->freeing->direction};
 }
 
 Aabb markedBox(const PairFinding& finding) {
-  Aabb box;
-  for (const std::vector<glm::dvec3>& curve : curvesOf(finding)) {
-    for (const glm::dvec3& point : curve)
-      box.add(point);
-  }
+  Aabb box = curvesBox(finding);
   if (finding.depth()) {
     const FreeingArrow arrow = freeingArrow(finding);
     box.add(arrow.from);
@@ -70,8 +70,8 @@ Aabb markedBox(const PairFinding& finding) {
 }
 
 PairMarks::PairMarks(Viewport& view)
-    : curves_(view.overlay(), kCurveLook),
-      arrow_(view.overlay(), kArrowLook),
+    : curves_(view.overlay(), kPairLook),
+      arrow_(view.overlay(), kPairLook),
       segment_(view.overlay(), colours::kAccent),
       label_(new SpotLabel(view, QStringLiteral("pairLabel"))) {}
 

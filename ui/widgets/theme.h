@@ -23,7 +23,7 @@ inline const QColor kJoint(0x5a, 0x7a, 0x00);
 inline const QColor kJointText(0x44, 0x5c, 0x00);  ///< Of joints; kJoint is too light for letters.
 inline const QColor kMutedText(0x5d, 0x68, 0x74);
 inline const QColor kWarning(0xb3, 0x4a, 0x00);
-inline const QColor kOutline(0x6e, 0x7e, 0x8f);  ///< Of parts drawn as outlines; see outlineColour().
+inline const QColor kOutline(0x6e, 0x7e, 0x8f);  ///< Edges of parts drawn as outlines; see outlineColour().
 }  // namespace colours
 
 /// Returns the colour of axis 0, 1 or 2; for -1 that of the direction of view.

@@ -55,7 +55,7 @@ class Remainder {
       case FindingKind::DuplicateFaces:
         break;
     }
-    // What repairs bring of these, the same repairs mend.
+    // Repairs may leave new ones of these, which the same repairs mend.
     return false;
   }
 

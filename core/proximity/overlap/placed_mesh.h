@@ -6,6 +6,7 @@
 #include "core/exact/triangle_predicates.h"
 #include "core/math/aabb.h"
 #include "core/math/rigid_transform.h"
+#include "core/math/triangle_corners.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 
@@ -44,17 +45,5 @@ class PlacedMesh {
   const RigidTransform* frameFromMesh_;  ///< Null: the mesh's own frame, without rounding.
   std::vector<std::uint32_t> loose_;
 };
-
-inline Aabb boxOf(const TriangleCorners& corners) noexcept {
-  Aabb box;
-  for (const glm::dvec3& p : corners)
-    box.add(p);
-  return box;
-}
-/// True if the boxes, boundaries included, share a point.
-inline bool doOverlap(const Aabb& a, const Aabb& b) noexcept {
-  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
-         b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
-}
 
 }  // namespace nearfit

@@ -181,12 +181,16 @@ std::vector<ClearancePlotPoint> thinnedCurve(std::span<const double> times,
 }
 
 std::vector<PlotCurve> nearestCurves(const ClearancePlot& plot) {
-  std::vector<PlotCurve> curves;
+  std::vector<std::pair<double, const PlotCurve*>> near;
   for (const PlotCurve& curve : plot.curves) {
-    if (std::isfinite(leastOfCurve(curve))) curves.push_back(curve);
+    const double least = leastOfCurve(curve);
+    if (std::isfinite(least)) near.emplace_back(least, &curve);
   }
-  std::ranges::stable_sort(curves, {}, leastOfCurve);
-  curves.resize(std::min(curves.size(), kMaxPlotCurves));
+  std::ranges::stable_sort(near, {}, &std::pair<double, const PlotCurve*>::first);
+  near.resize(std::min(near.size(), kMaxPlotCurves));
+  std::vector<PlotCurve> curves;
+  for (const auto& [least, curve] : near)
+    curves.push_back(*curve);
   return curves;
 }
 

@@ -1,8 +1,6 @@
 #include "core/report/html/finding_views.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <ranges>
 #include <utility>
 #include <vector>
@@ -91,12 +89,10 @@ glm::dvec3 directionOf(const PairFinding& finding) {
 void addFreeing(const PairFinding& finding, std::span<const glm::dvec3> places,
                 std::vector<DrawnMark>& marks) {
   if (!finding.clash || !finding.clash->freeing) return;
-  glm::dvec3 lower = places.front(), upper = lower;
-  for (const glm::dvec3& place : places) {
-    lower = glm::min(lower, place);
-    upper = glm::max(upper, place);
-  }
-  const glm::dvec3 from = lower + 0.5 * (upper - lower);
+  Aabb box;
+  for (const glm::dvec3& place : places)
+    box.add(place);
+  const glm::dvec3 from = box.centre();
   const glm::dvec3 to = from + finding.clash->freeing->length * finding.clash->freeing->direction;
   marks.push_back({{from, to}, kFreeingColour, kLine});
   marks.push_back({{to}, kFreeingColour, kDot});
@@ -118,7 +114,7 @@ ScenePicture sceneView(const Scene& scene, PictureSide side, const AssemblyPath*
   ScenePicture picture;
   std::vector<glm::dvec3> points;
   for (const Scene::PartPtr& part : scene.parts()) {
-    if (!part->isVisible || !part->geometry || part->geometry->mesh.triangles().empty()) continue;
+    if (!part->isVisible || !hasTriangles(*part)) continue;
     picture.parts.push_back(drawnPart(*part, coverOf(part->opacity)));
     addPoints(points, boxCorners(part->geometry->mesh, part->worldFromPart));
   }

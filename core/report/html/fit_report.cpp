@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -37,10 +36,6 @@ PathFindings findPath(const FitReportRequest& request, const ProgressCallback& p
       clearancesAlong(request.scene, found.path, found.range, stageCallback(progress, 0.5, 1.0));
   found.least = leastOf(found.clearances, found.path);
   return found;
-}
-
-std::string countOf(std::size_t count, const char* one, const char* several) {
-  return fmt::format("{} {}", count, count == 1 ? one : several);
 }
 
 const std::string& nameOf(const FitReportRequest& request, PartId id) {
@@ -96,6 +91,10 @@ std::string pathSentence(const FitReportRequest& request, const PathFindings& pa
 }
 
 }  // namespace
+
+std::string countOf(std::size_t count, const char* one, const char* several) {
+  return fmt::format("{} {}", count, count == 1 ? one : several);
+}
 
 FitReportRequest fitReportRequest(const Scene& scene, const std::filesystem::path& file,
                                   const std::string& fileSha256, double threshold) {

@@ -25,13 +25,13 @@ struct ReportInput {
   std::string sha256;  ///< Empty: the scene is not what its file holds.
 };
 
-/// What a report is made of.
+/// Input of a report.
 struct FitReportRequest {
   std::string title;  ///< The scene's name.
   Scene scene;        ///< With all parts where they are.
   SceneCheckRequest check;
   std::vector<ReportInput> inputs;
-  std::string sceneSha256;           ///< Of the scene's file; empty if the scene is not what that holds.
+  std::string sceneSha256;           ///< SHA-256 of the scene's file; empty if the scene differs from it.
   std::optional<AssemblyPath> path;  ///< Given as a file of its own.
   std::optional<Certificate> certificate;
   ReportOrigin origin;
@@ -49,7 +49,7 @@ void addPath(FitReportRequest& request, const std::filesystem::path& file);
 /// Adds a certificate, and its path where none was given. Throws FileError, also if the certificate was changed.
 void addCertificate(FitReportRequest& request, const std::filesystem::path& file);
 
-/// What a report says of a path.
+/// Findings about the path of a report.
 struct PathFindings {
   AssemblyPath path;
   double range = 0.0;  ///< Distances are looked for up to this [m].
@@ -78,6 +78,9 @@ struct FitReport {
   bool isGood() const noexcept;
 };
 
+/// "1 pair", "3 pairs".
+std::string countOf(std::size_t count, const char* one, const char* several);
+
 /// Checks the scene, finds clearances along the path, proves the certificate anew. On all processors. Throws UsageError
 /// as checkScene() and pathBodies(); Cancelled.
 FitReport makeFitReport(const FitReportRequest& request, const ProgressCallback& progress = {});
@@ -94,7 +97,7 @@ constexpr std::size_t kMaxPicturedFindings = 30, kMaxFindingRows = 1000, kMaxPar
 std::string fitReportPage(const FitReportRequest& request, const FitReport& report,
                           const ProgressCallback& progress = {});
 
-/// What came of a report.
+/// Outcome of a report that was written.
 struct FitReportOutcome {
   bool isGood = true;  ///< FitReport::isGood().
   std::string sentence;

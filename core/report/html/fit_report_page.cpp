@@ -73,10 +73,6 @@ std::string pathText(const std::filesystem::path& file) {
   return file.string();
 }
 
-std::string plural(std::size_t count, const char* one, const char* several) {
-  return fmt::format("{} {}", count, count == 1 ? one : several);
-}
-
 /// A picture of the page, drawn before it is written.
 struct PagePicture {
   ScenePicture scene;
@@ -99,8 +95,8 @@ class ReportPage {
         rows_(findingsBySeverity(report.findings)),
         html_("Fit report: " + request.title, kPageStyle) {
     for (const Scene::PartPtr& part : request.scene.parts()) {
-      if (!hasSurface(*part)) withoutSurface_.push_back(part->name);
-      if (hasSurface(*part) && part->isVisible) geometries_.push_back(part->geometry);
+      if (!hasTriangles(*part)) withoutSurface_.push_back(part->name);
+      if (hasTriangles(*part) && part->isVisible) geometries_.push_back(part->geometry);
     }
   }
 
@@ -123,10 +119,6 @@ class ReportPage {
   }
 
  private:
-  static bool hasSurface(const Part& part) {
-    return part.geometry && !part.geometry->mesh.triangles().empty();
-  }
-
   // Pictures.
 
   std::size_t addPicture(ScenePicture scene, int width, int height) {
@@ -389,7 +381,7 @@ class ReportPage {
       place(finding.otherPoint);
       if (finding.verdict == PairVerdict::Near)
         html_.put(fmt::format("; {}{} within the threshold", finding.isEveryMinimum ? "" : "more than ",
-                              plural(finding.minima.size(), "minimum", "minima")));
+                              countOf(finding.minima.size(), "minimum", "minima")));
     }
     if (finding.depth()) {
       // Rounding leaves traces in components that are 0.
@@ -451,7 +443,7 @@ class ReportPage {
           fmt::format(
               "Clearance at the poses to the nearest {} of {} within {}. Gaps: farther away. Of more than {} "
               "poses the least in each stretch of time is drawn.",
-              nearestCurves(plot).size(), plural(plot.curves.size(), "part", "parts"), mmText(path.range),
+              nearestCurves(plot).size(), countOf(plot.curves.size(), "part", "parts"), mmText(path.range),
               kMaxPlotPoints));
     });
   }
@@ -465,8 +457,8 @@ class ReportPage {
                       "all other visible parts are at least {} apart, and none is inside another. Verified "
                       "by {} of {}, which share no "
                       "search with what made the certificate.",
-                      mmText(certificate.separation), plural(verification.stretches, "stretch", "stretches"),
-                      plural(certificate.pairs.size(), "pair", "pairs")));
+                      mmText(certificate.separation), countOf(verification.stretches, "stretch", "stretches"),
+                      countOf(certificate.pairs.size(), "pair", "pairs")));
     } else {
       html_.element("p", {{"class", "verdict bad"}}, [&] {
         html_.put("The certificate is refused: ");
@@ -488,7 +480,7 @@ class ReportPage {
     }
     if (stretches > 0)
       sentence(fmt::format("Least bound of its {}: {} between surfaces at the anchor.",
-                           plural(stretches, "stretch", "stretches"), mmText(least)));
+                           countOf(stretches, "stretch", "stretches"), mmText(least)));
     const std::size_t shown = std::min(certificate.parts.size(), kMaxPartRows);
     table({"Certified part", "Moves", "SHA-256 of its mesh"}, [&] {
       for (std::size_t i = 0; i < shown; ++i) {
@@ -548,9 +540,9 @@ class ReportPage {
       hash(geometry.sha256);
     });
     cell([&] {
-      html_.put(plural(geometry.mesh.triangles().size(), "triangle", "triangles"));
+      html_.put(countOf(geometry.mesh.triangles().size(), "triangle", "triangles"));
       if (geometry.surfaces)
-        html_.put(fmt::format(", {}", plural(geometry.surfaces->faces.size(), "face", "faces")));
+        html_.put(fmt::format(", {}", countOf(geometry.surfaces->faces.size(), "face", "faces")));
     });
     cell([&] {
       const Aabb& box = geometry.mesh.bounds();
@@ -627,7 +619,7 @@ class ReportPage {
     });
   }
 
-  // What was not checked.
+  // Section on all that was not checked.
 
   /// Writes an entry that names parts.
   void namedEntry(const std::string& text, const std::vector<std::string>& parts) {
@@ -658,7 +650,7 @@ class ReportPage {
   std::vector<std::string> namesWhere(const Choose& isChosen) const {
     std::vector<std::string> chosen;
     for (const Scene::PartPtr& part : request_.scene.parts()) {
-      if (part->isVisible && hasSurface(*part) && isChosen(*part)) chosen.push_back(part->name);
+      if (part->isVisible && hasTriangles(*part) && isChosen(*part)) chosen.push_back(part->name);
     }
     return chosen;
   }
@@ -668,7 +660,7 @@ class ReportPage {
     for (const Scene::PartPtr& part : request_.scene.parts()) {
       if (!part->isVisible) hidden.push_back(part->name);
     }
-    namedEntry(fmt::format("{} hidden, not checked", plural(hidden.size(), "part is", "parts are")), hidden);
+    namedEntry(fmt::format("{} hidden, not checked", countOf(hidden.size(), "part is", "parts are")), hidden);
     namedEntry("Parts without triangles, not checked", withoutSurface_);
     namedEntry("Meshes that are not closed, so that nothing can be found inside them and no volume is known",
                namesWhere([](const Part& part) { return !part.geometry->mesh.topology().isClosed(); }));
@@ -693,7 +685,7 @@ class ReportPage {
     if (!check.leftOut.empty()) {
       html_.element("li", [&] {
         html_.put(fmt::format("Rules left out {} within the threshold: ",
-                              plural(check.leftOut.size(), "pair", "pairs")));
+                              countOf(check.leftOut.size(), "pair", "pairs")));
         for (std::size_t i = 0; i < std::min(check.leftOut.size(), kMaxListedCases); ++i) {
           if (i > 0) html_.put("; ");
           names(check.leftOut[i].pair);
@@ -719,7 +711,7 @@ class ReportPage {
     }
     if (kept > 0)
       entry(fmt::format("{} of earlier checks were not checked this time, or were gone before.",
-                        plural(kept, "finding", "findings")));
+                        countOf(kept, "finding", "findings")));
   }
 
   template <class Choose>
@@ -730,7 +722,7 @@ class ReportPage {
     }
     if (pairs.empty()) return;
     html_.element("li", [&] {
-      html_.put(fmt::format("{} with {}: ", plural(pairs.size(), "pair", "pairs"), what));
+      html_.put(fmt::format("{} with {}: ", countOf(pairs.size(), "pair", "pairs"), what));
       for (std::size_t i = 0; i < std::min(pairs.size(), kMaxListedCases); ++i) {
         if (i > 0) html_.put("; ");
         names(pairs[i]);

@@ -30,8 +30,8 @@ struct Utf8Character {
 
 Utf8Character firstOf(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text.front());
-  const std::size_t bytes = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-  if (bytes > text.size() || !isUtf8(text.substr(0, bytes))) return {};
+  const std::size_t bytes = utf8CharacterLength(text);
+  if (bytes == 0) return {};
   std::uint32_t code = bytes == 1 ? lead : lead & (0x7FU >> bytes);
   for (std::size_t i = 1; i < bytes; ++i)
     code = code << 6U | (static_cast<unsigned char>(text[i]) & 0x3FU);

@@ -20,7 +20,7 @@ namespace {
 
 /// The user's name on this system; empty if it has none.
 std::string userName() {
-  // What the manual of getpwuid_r() calls enough.
+  // The size that the manual of getpwuid_r() calls enough.
   std::array<char, 16384> text{};
   ::passwd entry{};
   ::passwd* found = nullptr;

@@ -9,7 +9,7 @@ struct ReportOrigin {
   std::string date;       ///< UTC, ISO 8601.
   std::string author;     ///< May be empty.
   std::string program;    ///< "Nearfit 0.1.0".
-  std::string libraries;  ///< Those that results depend on, with versions.
+  std::string libraries;  ///< Libraries that results depend on, with versions.
   std::string system;     ///< Operating system, its release, machine.
 };
 

@@ -155,7 +155,7 @@ void DesktopGroupInHandTest::theNumbersOfAGroupAreThoseOfOnePartInHandOrNot() {
 /// They were those of the part selected last, under the name of the group.
 void DesktopGroupInHandTest::theNumbersOfTheWholeGroupAreThoseOfOneBody() {
   PairInHand d;
-  d.session().setDensity({d.other}, 3000.0);
+  d.session().setDensity(d.other, 3000.0);
   d.session().setMovingGroup(d.group);
   d.window().selection().set({d.lead, d.other}, {d.group});
   QCOMPARE(d.text("poseHeading"), QStringLiteral("Pair"));
@@ -166,10 +166,10 @@ void DesktopGroupInHandTest::theNumbersOfTheWholeGroupAreThoseOfOneBody() {
   QCOMPARE(d.text("mass"), QStringLiteral("32.0 g"));
   QCOMPARE(d.text("massCentre"), QStringLiteral("Centre of mass 22.500, 0.000, 35.000 mm"));
   // What is hidden is not felt.
-  d.session().setVisible({d.lead}, false);
+  d.session().setVisible(d.lead, false);
   QCOMPARE(d.text("mass"), QStringLiteral("24.0 g"));
   QCOMPARE(d.text("massCentre"), QStringLiteral("Centre of mass 30.000, 0.000, 35.000 mm"));
-  d.session().setVisible({d.lead}, true);
+  d.session().setVisible(d.lead, true);
   d.window().selection().select(d.other);
   QCOMPARE(d.widget<QDoubleSpinBox>("positionX")->value(), 30.0);
   QVERIFY(!d.widget<QLabel>("massCentre")->isVisible());
@@ -224,10 +224,10 @@ void DesktopGroupInHandTest::aGroupOfAllPartsHasNothingToFeel() {
   const QString why = QStringLiteral("No other part is visible: nothing can be felt.");
   QVERIFY(button->isEnabled());
   const PartId fixed = d.partId("fixed");
-  d.session().setVisible({fixed}, false);
+  d.session().setVisible(fixed, false);
   QVERIFY(!button->isEnabled());
   QCOMPARE(d.text("whyNotFelt"), why);
-  d.session().setVisible({fixed}, true);
+  d.session().setVisible(fixed, true);
   QVERIFY(button->isEnabled());
   d.session().deletePart(fixed);
   QVERIFY(!button->isEnabled());

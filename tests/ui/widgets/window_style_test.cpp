@@ -109,8 +109,8 @@ void WindowStyleTest::tooltipsAreReadableInBothThemes() {
   QFETCH(int, scheme);
   ui::setColourScheme(static_cast<ui::ColourScheme>(scheme));
   QToolTip::showText(QPoint(40, 40), QStringLiteral("Stop the servo"));
-  QWidget* tip = nullptr;
-  QTRY_VERIFY((tip = shownTooltip()) != nullptr);
+  QTRY_VERIFY(shownTooltip() != nullptr);
+  QWidget* tip = shownTooltip();
   const QImage picture = tip->grab().toImage();
   const double best = bestContrast(picture, picture.pixelColor(2, picture.height() / 2));
   QVERIFY2(best >= 4.5, qPrintable(QString::number(best)));

@@ -29,7 +29,7 @@ bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
   return a.rotation == b.rotation && a.translation == b.translation;
 }
 
-/// What a report is made of, for another thread.
+/// Input of a report, for another thread.
 struct ReportWork {
   Scene scene;
   std::filesystem::path sceneFile, path, certificate, target;

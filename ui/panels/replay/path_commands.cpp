@@ -3,7 +3,6 @@
 #include <QAction>
 #include <QFileInfo>
 #include <QMenu>
-#include <algorithm>
 #include <utility>
 #include <vector>
 

@@ -31,7 +31,7 @@ class PathCommands : public QObject {
   Q_OBJECT
 
  public:
-  /// What they work on; all outlive this.
+  /// Objects that they work on; all outlive this.
   struct Context {
     Session& session;
     Replay& replay;
@@ -56,7 +56,7 @@ class PathCommands : public QObject {
     Scene scene;
     AssemblyPath path;
     PathProof proof;
-    std::string sceneSha256;  ///< Of the scene file; empty if it was not saved as it is.
+    std::string sceneSha256;  ///< Hash of the scene file; empty if the scene is not as saved.
   };
   QAction* add(const char* name, const QString& text, const QString& help, void (PathCommands::*command)());
   void updateActions();
@@ -93,7 +93,7 @@ class PathCommands : public QObject {
   BackgroundTask task_;
   QPointer<ProgressDialog> progress_;
   std::shared_ptr<const Certified> certified_;  ///< Null: nothing is proven of what is open.
-  std::uint64_t certifiedState_ = 0;            ///< Of the session.
+  std::uint64_t certifiedState_ = 0;            ///< Session::stateSerial() of what certified_ proves.
   Subscription changes_;
 };
 

@@ -12,7 +12,7 @@ struct PathWishes {
   double from = 0.0, to = 0.0;  ///< On the timeline [s].
   std::optional<double> thin,
       smooth;               ///< Max distance that a point of the part may move [m]; no value: not at all.
-  double separation = 0.0;  ///< What thinning and smoothing keep from other parts [m].
+  double separation = 0.0;  ///< Distance to other parts that thinning and smoothing keep [m].
 };
 
 /// Asks how to save a motion as a path.

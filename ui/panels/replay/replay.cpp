@@ -33,7 +33,7 @@ constexpr int kEveryMs = 16;
 constexpr double kPathStep = 1.0 / 60.0;
 constexpr std::size_t kMaxPathRows = 4000;
 
-/// What a file holds.
+/// Content of a recording or path file.
 struct OpenedMotion {
   Recording recording;
   std::optional<AssemblyPath> path;

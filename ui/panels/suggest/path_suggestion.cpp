@@ -181,7 +181,7 @@ void PathSuggestion::update() {
     sincePlay_.restart();
     timer_.start();
   } else {
-    // What is felt shows itself.
+    // While the part is felt, the view shows the hand's own ghost.
     timer_.stop();
   }
 }

@@ -31,7 +31,7 @@ class PathSuggestion : public QObject {
   Q_OBJECT
 
  public:
-  /// What it works on; all outlive this.
+  /// Objects that it works on; all outlive this.
   struct Context {
     Session& session;
     const HandState& hand;
@@ -81,7 +81,7 @@ class PathSuggestion : public QObject {
   QPointer<SuggestionCard> card_;
   std::shared_ptr<const AssemblyPath> path_;  ///< On show; null if there is none.
   bool isGuiding_ = false;
-  PartId moving_{};                     ///< What the path moves.
+  PartId moving_{};                     ///< Part that the path moves; of a group the one that leads.
   std::optional<GroupId> movingGroup_;  ///< Set if that part leads a group.
   std::uint64_t sceneSerial_ = 0;       ///< Serial of its scene.
   std::unique_ptr<ServoSnapshot> ghost_;

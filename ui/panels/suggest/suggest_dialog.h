@@ -8,7 +8,7 @@ class QWidget;
 
 namespace nearfit::ui {
 
-/// What the user asks for when a path is to be suggested.
+/// The user's choices for a suggested path.
 struct SuggestionRequest {
   enum class Goal : std::uint8_t { ToDrawn, Out };
   Goal goal = Goal::Out;

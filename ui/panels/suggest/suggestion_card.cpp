@@ -3,7 +3,6 @@
 #include <QDialogButtonBox>
 #include <QLabel>
 #include <QPushButton>
-#include <QSignalBlocker>
 #include <QVBoxLayout>
 
 #include "ui/widgets/font_scale.h"
@@ -27,23 +26,17 @@ SuggestionCard::SuggestionCard(const QString& text, bool isFound, QWidget* paren
     save->setToolTip(tr("Save the path to a file, which nearfit-cli certify proves anew"));
     save->setAutoDefault(false);
     connect(save, &QPushButton::clicked, this, &SuggestionCard::saveWanted);
-    feel_ = buttons->addButton(tr("&Feel it"), QDialogButtonBox::ActionRole);
-    feel_->setObjectName(QStringLiteral("suggestionFeel"));
-    feel_->setCheckable(true);
-    feel_->setAutoDefault(false);
-    feel_->setToolTip(tr("Draw the hand weakly toward the path; it can leave at any time"));
-    connect(feel_, &QPushButton::toggled, this, &SuggestionCard::guidanceWanted);
+    auto* feel = buttons->addButton(tr("&Feel it"), QDialogButtonBox::ActionRole);
+    feel->setObjectName(QStringLiteral("suggestionFeel"));
+    feel->setCheckable(true);
+    feel->setAutoDefault(false);
+    feel->setToolTip(tr("Draw the hand weakly toward the path; it can leave at any time"));
+    connect(feel, &QPushButton::toggled, this, &SuggestionCard::guidanceWanted);
   }
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(label);
   layout->addWidget(buttons);
   setMinimumWidth(forFont(*this, 380));
-}
-
-void SuggestionCard::showGuided(bool isOn) {
-  if (feel_ == nullptr) return;
-  const QSignalBlocker blocker(feel_);
-  feel_->setChecked(isOn);
 }
 
 }  // namespace nearfit::ui

@@ -2,8 +2,6 @@
 
 #include <QDialog>
 
-class QPushButton;
-
 namespace nearfit::ui {
 
 /// Says what a search for a path came to. Stays open beside the view, which plays the path; closing it ends that.
@@ -14,15 +12,9 @@ class SuggestionCard : public QDialog {
   /// @param isFound  False: there is nothing to save or to feel.
   SuggestionCard(const QString& text, bool isFound, QWidget* parent);
 
-  /// Shows that the guidance is on or off, without a signal.
-  void showGuided(bool isOn);
-
  signals:
   void saveWanted();
   void guidanceWanted(bool isOn);
-
- private:
-  QPushButton* feel_ = nullptr;  ///< Null if nothing was found.
 };
 
 }  // namespace nearfit::ui

@@ -15,7 +15,7 @@ enum class VerdictFilter {
   Clashing,    ///< Clash or contained.
   Touching,
   Near,
-  Clear,  ///< Those that are gone.
+  Clear,  ///< Findings of the last check that are gone.
 };
 
 /// Sorts a PairFindingsModel, and leaves out rows by text, verdict and state.

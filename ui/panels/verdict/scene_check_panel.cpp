@@ -295,7 +295,9 @@ void SceneCheckPanel::connectRun() {
           [this](double fraction) { progress_->setValue(qRound(kCheckPercent * fraction)); });
   // Marks are of where the parts were.
   connect(&view_.poses(), &ShownPoses::changed, this, [this] {
-    if (marks_.isShown()) showPairs();
+    if (!marks_.isShown()) return;
+    const std::optional<int> row = markedRow();
+    if (!row || !run_.isAsChecked(model_->at(*row).pair)) showPairs();
   });
 }
 
@@ -430,13 +432,18 @@ std::optional<int> SceneCheckPanel::markedRow() const {
   return std::ranges::find(rows, row) != rows.end() ? row : rows.front();
 }
 
-void SceneCheckPanel::choose() {
-  if (isRestoring_) return;
+std::vector<PartId> SceneCheckPanel::chosenParts() const {
   std::vector<PartId> parts;
   for (const PartPair& pair : chosenPairs()) {
     parts.push_back(pair.part);
     parts.push_back(pair.other);
   }
+  return parts;
+}
+
+void SceneCheckPanel::choose() {
+  if (isRestoring_) return;
+  const std::vector<PartId> parts = chosenParts();
   if (!parts.empty() && isVisible()) view_.fitParts(parts);
   showState();
   showPairs();
@@ -461,14 +468,7 @@ void SceneCheckPanel::showPairs() {
   const ShownFinding* finding = row ? &model_->at(*row) : nullptr;
   const bool hasPlace = finding != nullptr && finding->now != nullptr && run_.isAsChecked(finding->pair);
   hasPlace ? marks_.show(*finding->now, labelOf(*finding)) : marks_.clear();
-  std::vector<PartId> parts;
-  if (finding != nullptr) {
-    for (const PartPair& pair : chosenPairs()) {
-      parts.push_back(pair.part);
-      parts.push_back(pair.other);
-    }
-  }
-  view_.highlight(parts);
+  view_.highlight(finding != nullptr ? chosenParts() : std::vector<PartId>{});
   view_.requestRender();
 }
 

@@ -34,7 +34,7 @@ class SceneCheckPanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// What it checks and shows it in; all outlive this.
+  /// Objects that it checks, and those that show the result; all outlive this.
   struct Context {
     Session& session;
     Viewport& view;
@@ -81,6 +81,8 @@ class SceneCheckPanel : public QWidget {
   /// Rows of the model that are chosen, in the order of the table.
   std::vector<int> chosenRows() const;
   std::vector<PartPair> chosenPairs() const;
+  /// Parts of the chosen pairs; one that is in several comes several times.
+  std::vector<PartId> chosenParts() const;
   /// The row that the view marks; std::nullopt if none is chosen or the panel is hidden.
   std::optional<int> markedRow() const;
   void choose();
@@ -101,7 +103,7 @@ class SceneCheckPanel : public QWidget {
   BackgroundTask writing_;
   PairMarks marks_;
   std::shared_ptr<const CheckedScene> shown_;  ///< Whose findings the rows are; null: what the scene keeps.
-  std::vector<PairRecord> shownRecords_;       ///< What the rows are of, if shown_ is null.
+  std::vector<PairRecord> shownRecords_;       ///< Records that the rows show while shown_ is null.
   bool isPairShown_ = false;                   ///< Parts are highlighted or marked.
   bool isRestoring_ = false;                   ///< Rows are being chosen again.
   PairFindingsModel* model_;

@@ -30,7 +30,7 @@ class SceneCheckRun : public QObject {
   Q_OBJECT
 
  public:
-  /// What it checks; all outlive this.
+  /// Objects that it checks; all outlive this.
   struct Context {
     Session& session;
     const ShownPoses& poses;

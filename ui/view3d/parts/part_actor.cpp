@@ -34,7 +34,7 @@ QColor edgeColour(const PartLook& look) {
                               : dark;
 }
 
-/// Of a part that is little more than its edges: these alone set it off from the background.
+/// Colour of a part that is little more than its edges: these alone set it off from the background.
 QColor outlineOf(const PartLook& look) {
   return outlineColour(look.isSelected      ? colours::kAccent
                        : look.isMoving      ? colours::kMoving

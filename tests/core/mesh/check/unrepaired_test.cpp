@@ -29,7 +29,7 @@ std::vector<FindingKind> kindsOf(const std::vector<UnrepairedKind>& unrepaired) 
   return kinds;
 }
 
-/// What is left after repairs, by a check of the repaired mesh.
+/// Findings that are left after repairs, by a check of the repaired mesh.
 std::vector<UnrepairedKind> leftAfter(const TriangleMesh& mesh, const MeshRepairs& repairs) {
   return unrepaired(repairMesh(mesh, repairs).mesh, repairs);
 }
