@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/report/clearance_colours.h"
+#include "ui/view3d/glyphs/colour_legend.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/theme.h"
 
@@ -15,6 +16,7 @@ namespace {
 /// Sizes in heights of a line of text, so that a larger font scales them all.
 constexpr double kBarLines = 8.0, kBarWidth = 1.0, kInsetLines = 0.6;
 constexpr int kLegendMargin = 14;  ///< To the edge of the view [pixels].
+constexpr int kLegendGap = 8;      ///< Between legends [pixels].
 constexpr int kIntervals = 4;      ///< Of the scale, between lengths.
 constexpr double kPaleOpacity = 0.4;
 
@@ -67,7 +69,16 @@ QSize ClearanceLegend::sizeHint() const {
 }
 
 bool ClearanceLegend::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize) place();
+  switch (event->type()) {
+    case QEvent::Move:
+    case QEvent::Show:
+    case QEvent::Hide:
+    case QEvent::Resize:
+      place();
+      break;
+    default:
+      break;
+  }
   return QWidget::eventFilter(watched, event);
 }
 
@@ -78,7 +89,24 @@ void ClearanceLegend::changeEvent(QEvent* event) {
 
 void ClearanceLegend::place() {
   resize(sizeHint());
-  move(kLegendMargin, kLegendMargin);
+  for (auto* legend : parentWidget()->findChildren<ColourLegend*>(QString(), Qt::FindDirectChildrenOnly))
+    legend->installEventFilter(this);
+  move(clearCorner());
+}
+
+QPoint ClearanceLegend::clearCorner() const {
+  const QPoint usual(kLegendMargin, kLegendMargin);
+  const QRect room = parentWidget()->rect();
+  for (const auto* legend :
+       parentWidget()->findChildren<ColourLegend*>(QString(), Qt::FindDirectChildrenOnly)) {
+    const QRect taken = legend->geometry();
+    if (legend->isHidden() || !taken.intersects({usual, size()})) continue;
+    for (const QPoint& corner : {QPoint(usual.x(), taken.bottom() + 1 + kLegendGap),
+                                 QPoint(taken.right() + 1 + kLegendGap, usual.y())}) {
+      if (room.contains({corner, size()})) return corner;
+    }
+  }
+  return usual;
 }
 
 void ClearanceLegend::paintSwatch(QPainter& painter, const QRect& at, const QColor& colour,

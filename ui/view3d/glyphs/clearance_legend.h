@@ -5,8 +5,8 @@
 
 namespace nearfit::ui {
 
-/// A card over the 3-D view, at its upper left, that explains the colours of clearances: the scale with lengths,
-/// overlaps, and what is beyond the range. Ignores the mouse.
+/// A card over the 3-D view that explains the colours of clearances: the scale with lengths, overlaps, and what is beyond
+/// the range. At the view's upper left; below or beside the legend of glyphs where that lies there. Ignores the mouse.
 class ClearanceLegend : public QWidget {
   Q_OBJECT
 
@@ -32,6 +32,8 @@ class ClearanceLegend : public QWidget {
 
  private:
   void place();
+  /// Returns a corner clear of the legends of glyphs, if there is room for one.
+  QPoint clearCorner() const;
   /// Names of the swatches below and above the scale, and the title, in the order in which they are painted.
   QStringList texts() const;
   void paintSwatch(QPainter& painter, const QRect& at, const QColor& colour, const QString& text) const;
