@@ -8,6 +8,7 @@
 #include <QSettings>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -55,6 +56,15 @@ QString namesOf(const QStringList& files) {
   for (const QString& file : files)
     names << QFileInfo(file).fileName();
   return listOfNames(names, kNamed);
+}
+
+/// Counts triangles, of a mesh that several share once.
+std::size_t trianglesOf(const std::vector<PartGeometryPtr>& geometries) {
+  std::size_t count = 0;
+  const std::set<PartGeometryPtr> distinct(geometries.begin(), geometries.end());
+  for (const PartGeometryPtr& geometry : distinct)
+    count += geometry->mesh.triangles().size();
+  return count;
 }
 
 /// Returns why a part was not loaded; null if it was.
@@ -244,7 +254,7 @@ PartFiles::ProgressText PartFiles::textAbout(const std::vector<Wanted>& parts, c
 }
 
 void PartFiles::load(const ProgressText& text, const std::vector<Wanted>& wanted, const Command& command,
-                     const QString& failure) {
+                     const QString& failure, const Result& result) {
   std::vector<MeshSource> sources;
   std::vector<std::size_t> sourceOf;
   using Key =
@@ -303,6 +313,8 @@ void PartFiles::load(const ProgressText& text, const std::vector<Wanted>& wanted
     }
     if (!problems.isEmpty())
       emit failed(describeItems(failure, problems));
+    else if (result)
+      emit noted(result(renewed));
     else
       emit noted(renewed.empty() ? tr("No file has changed")
                                  : tr("Done: %1. Undo to revert.").arg(shortName(session_.undoText())));
@@ -541,14 +553,30 @@ void PartFiles::refine(const std::vector<PartId>& parts) {
       const PartGeometry& geometry = *session_.scene().get(member.part).geometry;
       all.push_back({member.part, geometry.metresPerUnit, geometry.sha256, *wanted, geometry.repairs});
     }
-    const auto apply = [this](const std::vector<Session::NewGeometry>& renewed) {
+    const auto before = std::make_shared<std::size_t>(0);
+    const auto apply = [this, before](const std::vector<Session::NewGeometry>& renewed) {
       if (renewed.empty()) return;
       // Feeling may have begun since.
       if (hand_.status().isTaken())
         throw UsageError("", "a part is being felt", "stop feeling it (F6), then try again");
+      std::vector<PartGeometryPtr> old;
+      for (const Session::NewGeometry& part : renewed)
+        old.push_back(session_.scene().get(part.part).geometry);
+      *before = trianglesOf(old);
       session_.refineParts(renewed);
     };
-    load(textAbout(all, tr("Refining"), tr("Refining %1")), all, apply, failure);
+    const auto result = [this, before](const std::vector<Session::NewGeometry>& renewed) {
+      if (renewed.empty()) return tr("Nothing to refine: the values are as before");
+      std::vector<PartGeometryPtr> now;
+      for (const Session::NewGeometry& part : renewed)
+        now.push_back(part.geometry);
+      const auto number = [](std::size_t count) {
+        return QLocale().toString(static_cast<qulonglong>(count));
+      };
+      return tr("Done: %1, %2 triangles instead of %3. Undo to revert.")
+          .arg(shortName(session_.undoText()), number(trianglesOf(now)), number(*before));
+    };
+    load(textAbout(all, tr("Refining"), tr("Refining %1")), all, apply, failure, result);
   } catch (const UsageError&) {
     emit failed(describe(failure, std::current_exception()));
   }

@@ -106,11 +106,13 @@ class PartFiles : public QObject {
   /// Reads the files of parts in other units, as one undo step.
   void loadInUnits(const ProgressText& text, const std::vector<Wanted>& wanted, const QString& failure);
   using Command = std::function<void(const std::vector<Session::NewGeometry>&)>;
+  using Result = std::function<QString(const std::vector<Session::NewGeometry>&)>;
   /// Reads the files of parts again, and gives what is new to a command.
   /// @param text     Shown to the user meanwhile.
   /// @param failure  Shown to the user if it fails.
+  /// @param result   Says what the command did with what was new, if anything; empty: its name.
   void load(const ProgressText& text, const std::vector<Wanted>& wanted, const Command& command,
-            const QString& failure);
+            const QString& failure, const Result& result = {});
 
   Session& session_;
   const HandState& hand_;

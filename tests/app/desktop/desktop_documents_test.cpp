@@ -257,6 +257,21 @@ void DesktopDocumentsTest::refiningAPartTakesItsInstancesAlongAndIsOneStep() {
   QCOMPARE(d.session().undoText(), std::string("Refine 2 parts"));
   QCOMPARE(d.part("pin").worldFromPart.translation, pose.translation);
   QVERIFY(isNear(d.part("pin").geometry->tessellation.chord, 1e-6, 1e-15));
+  const auto number = [](std::size_t count) { return QLocale().toString(static_cast<qulonglong>(count)); };
+  const auto said = [&d] { return d.window().statusBar()->currentMessage(); };
+  const QString counts =
+      QStringLiteral("%1 triangles instead of %2").arg(number(d.trianglesOf("pin")), number(coarse));
+  QTRY_VERIFY2(said().contains(counts), qPrintable(said()));
+  // The same values again.
+  whenModal<QDialog>(
+      [](QDialog* dialog) {
+        QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok),
+                          Qt::LeftButton);
+      },
+      QStringLiteral("refineDialog"));
+  d.choose("refine");
+  QTRY_COMPARE(said(), QStringLiteral("Nothing to refine: the values are as before"));
+  QCOMPARE(d.session().historyIndex(), steps + 1);
   d.choose("undo");
   QCOMPARE(d.trianglesOf("pin"), coarse);
   d.choose("redo");
