@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/proximity/overlap/placed_mesh.h"
+#include "core/proximity/overlap/containment.h"
 #include "core/proximity/overlap/touching_bodies.h"
 #include "core/proximity/query/broad_phase.h"
 #include "core/proximity/surface/surface_distance.h"
@@ -24,6 +24,13 @@ double touchTolerance(const PartGeometry& a, const PartGeometry& b) noexcept {
 std::optional<PairSeparation> separationOf(const PartGeometry& part, const PartGeometry& other,
                                            const RigidTransform& otherFromPart, double within,
                                            LmdScratch& scratch) {
+  ComponentsOnDemand partPieces, otherPieces;
+  return separationOf(part, other, otherFromPart, within, scratch, {partPieces, otherPieces});
+}
+
+std::optional<PairSeparation> separationOf(const PartGeometry& part, const PartGeometry& other,
+                                           const RigidTransform& otherFromPart, double within,
+                                           LmdScratch& scratch, const PairComponents& components) {
   const NormalConeTree &a = part.tree(), &b = other.tree();
   const auto nearestWithin = [&](double limit) {
     return leastSurfaceDistance(b, a, otherFromPart, limit, scratch, kAnyWork);
@@ -32,7 +39,8 @@ std::optional<PairSeparation> separationOf(const PartGeometry& part, const PartG
   const bool doBoxesMeet = doOverlap(boundsOf(a.mesh().bounds(), otherFromPart), b.mesh().bounds());
   if (!nearest.isFound && !doBoxesMeet) return std::nullopt;
   PairSeparation result;
-  if (doBoxesMeet) result.overlap = findInterference(b, a, otherFromPart).kind;
+  if (doBoxesMeet)
+    result.overlap = findInterference({b, components.other}, {a, components.part}, otherFromPart).kind;
   const bool doMeet = result.overlap != InterferenceKind::Disjoint;
   if (!nearest.isFound) {
     if (!doMeet) return std::nullopt;

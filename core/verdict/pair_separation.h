@@ -12,6 +12,8 @@
 
 namespace nearfit {
 
+class ComponentsOnDemand;
+
 /// Gap or depth up to which bodies count as touching [m]: what rounding in files and poses comes to. A millionth
 /// of the smaller one's diagonal, at most 1 um.
 double touchTolerance(const PartGeometry& a, const PartGeometry& b) noexcept;
@@ -36,6 +38,15 @@ struct PairSeparation {
 std::optional<PairSeparation> separationOf(const PartGeometry& part, const PartGeometry& other,
                                            const RigidTransform& otherFromPart, double within,
                                            LmdScratch& scratch);
+
+/// Components of two bodies (containment.h), kept for further calls.
+struct PairComponents {
+  ComponentsOnDemand &part, &other;
+};
+/// As above, but finds the components of a body once, which takes time by the number of its triangles.
+std::optional<PairSeparation> separationOf(const PartGeometry& part, const PartGeometry& other,
+                                           const RigidTransform& otherFromPart, double within,
+                                           LmdScratch& scratch, const PairComponents& components);
 
 /// The verdict on two bodies within the threshold: never Clear.
 PairVerdict verdictOf(const PairSeparation& separation) noexcept;

@@ -21,6 +21,7 @@
 #include "core/parallel/parallel_for.h"
 #include "core/parallel/shared_progress.h"
 #include "core/parallel/work_spaces.h"
+#include "core/proximity/overlap/containment.h"
 #include "core/proximity/query/broad_phase.h"
 #include "core/proximity/tracking/lmd_set.h"
 #include "core/verdict/pair_separation.h"
@@ -37,12 +38,14 @@ constexpr std::size_t kMaxCurvePairs = 1'000'000, kMaxVolumePairs = 1'000'000;
 /// Bound on the points looked at for the interference of a press fit: about a second.
 constexpr std::uint64_t kMaxDepthSamples = 1'000'000;
 
-/// Properties of a mesh that clashes need, found when first needed and kept for all pairs. Thread-safe.
-class ClashShape {
+/// Properties of a mesh that take time by the number of its triangles, found when first needed and kept for all pairs.
+/// Thread-safe.
+class CheckedShape {
  public:
-  explicit ClashShape(const PartGeometry& geometry) : geometry_(geometry) {}
+  explicit CheckedShape(const PartGeometry& geometry) : geometry_(geometry) {}
 
   const TriangleMesh& mesh() const { return geometry_.tree().mesh(); }
+  ComponentsOnDemand& components() noexcept { return components_; }
   /// Null if the body is not convex.
   const ConvexBody* convex() {
     std::call_once(convexOnce_, [&] { convex_ = convexBodyOf(mesh()); });
@@ -59,6 +62,7 @@ class ClashShape {
 
  private:
   const PartGeometry& geometry_;
+  ComponentsOnDemand components_;
   std::once_flag convexOnce_, crossingOnce_;
   std::optional<ConvexBody> convex_;
   bool crossesItself_ = false;
@@ -111,7 +115,7 @@ class SceneChecker {
     for (const CheckedPart& part : request.parts) {
       result_.parts.push_back(part.id);
       const auto [known, isNew] = shapeOf_.emplace(part.geometry.get(), shapes_.size());
-      if (isNew) shapes_.push_back(std::make_unique<ClashShape>(*part.geometry));
+      if (isNew) shapes_.push_back(std::make_unique<CheckedShape>(*part.geometry));
     }
   }
 
@@ -127,9 +131,15 @@ class SceneChecker {
       works_.with([&](CheckWork& work) { found[i] = findingOf(examples[i], work, shared); });
       shared.add(1.0);
     });
+    // Each example is given to the last pair that looks like it, so that minima are not in memory twice.
+    std::vector<std::size_t> lastOf(examples.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      lastOf[exampleOf[i]] = i;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const std::optional<PairFinding>& example = found[exampleOf[i]];
-      if (example) result_.findings.push_back(placed(*example, pairs[i]));
+      std::optional<PairFinding>& example = found[exampleOf[i]];
+      if (!example) continue;
+      const bool isLast = lastOf[exampleOf[i]] == i;
+      result_.findings.push_back(placed(isLast ? std::move(*example) : *example, pairs[i]));
     }
     return std::move(result_);
   }
@@ -224,7 +234,8 @@ class SceneChecker {
     const RigidTransform pose = relativePoseOf(part, other);
     const double within = std::max(request_.threshold, touchTolerance(*part.geometry, *other.geometry));
     const std::optional<PairSeparation> separation =
-        separationOf(*part.geometry, *other.geometry, pose, within, work.scratch);
+        separationOf(*part.geometry, *other.geometry, pose, within, work.scratch,
+                     {shapeAt(pair.part).components(), shapeAt(pair.other).components()});
     if (!separation) return std::nullopt;
     PairFinding finding;
     finding.verdict = verdictOf(*separation);
@@ -251,7 +262,7 @@ class SceneChecker {
 
   ClashMeasures measure(const NearPair& pair, const RigidTransform& pose, PairVerdict verdict,
                         CheckWork& work, SharedProgress& shared) {
-    ClashShape &part = shapeAt(pair.part), &other = shapeAt(pair.other);
+    CheckedShape &part = shapeAt(pair.part), &other = shapeAt(pair.other);
     // CGAL, which calls this, must not be left by an exception of ours.
     const GoOn goOn = [&shared] {
       try {
@@ -286,9 +297,9 @@ class SceneChecker {
     return measures;
   }
 
-  void measureVolume(ClashShape& part, ClashShape& other, const MeshArrays& moved, const MeshArrays& fixed,
-                     const GoOn& goOn, ClashMeasures& measures) const {
-    const auto isOpen = [](const ClashShape& shape) { return !shape.mesh().topology().isClosed(); };
+  void measureVolume(CheckedShape& part, CheckedShape& other, const MeshArrays& moved,
+                     const MeshArrays& fixed, const GoOn& goOn, ClashMeasures& measures) const {
+    const auto isOpen = [](const CheckedShape& shape) { return !shape.mesh().topology().isClosed(); };
     if (moved.triangles.size() + fixed.triangles.size() > request_.maxVolumeTriangles) {
       measures.volumeProblem = VolumeProblem::TooLarge;
     } else if (isOpen(part) || isOpen(other)) {
@@ -304,16 +315,17 @@ class SceneChecker {
     }
   }
 
-  ClashShape& shapeAt(std::size_t part) { return *shapes_[shapeOf_.at(request_.parts[part].geometry.get())]; }
+  CheckedShape& shapeAt(std::size_t part) {
+    return *shapes_[shapeOf_.at(request_.parts[part].geometry.get())];
+  }
   const NormalConeTree& treeAt(std::size_t part) const { return request_.parts[part].geometry->tree(); }
 
   /// The finding of a pair that looks like the example, in the world.
-  PairFinding placed(const PairFinding& example, const NearPair& pair) const {
+  PairFinding placed(PairFinding finding, const NearPair& pair) const {
     const RigidTransform& world = request_.parts[pair.other].worldFromPart;
-    PairFinding finding = example;
     finding.pair = idsOf(pair);
-    finding.partPoint = world.applyToPoint(example.partPoint);
-    finding.otherPoint = world.applyToPoint(example.otherPoint);
+    finding.partPoint = world.applyToPoint(finding.partPoint);
+    finding.otherPoint = world.applyToPoint(finding.otherPoint);
     for (FoundMinimum& minimum : finding.minima) {
       minimum.partPoint = world.applyToPoint(minimum.partPoint);
       minimum.otherPoint = world.applyToPoint(minimum.otherPoint);
@@ -342,7 +354,7 @@ class SceneChecker {
   PairRules rules_;
   WorkSpaces<CheckWork> works_;
   std::map<const PartGeometry*, std::size_t> shapeOf_;
-  std::vector<std::unique_ptr<ClashShape>> shapes_;
+  std::vector<std::unique_ptr<CheckedShape>> shapes_;
   SceneCheck result_;
 };
 

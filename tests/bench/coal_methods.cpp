@@ -4,45 +4,23 @@
 #include <memory>
 #include <utility>
 
-#include <coal/BVH/BVH_model.h>
 #include <coal/collision.h>
 #include <coal/distance.h>
 #include <coal/internal/intersect.h>
 
+#include "tests/bench/coal_bodies.h"
 #include "tests/bench/peer_bodies.h"
 #include "tests/bench/query_method.h"
 
 namespace nearfit::bench {
 namespace {
 
-using CoalModel = coal::BVHModel<coal::OBBRSS>;
-
-std::unique_ptr<CoalModel> modelOf(const TriangleMesh& mesh) {
-  std::vector<coal::Vec3s> vertices;
-  for (const glm::dvec3& p : mesh.vertices())
-    vertices.emplace_back(p.x, p.y, p.z);
-  std::vector<coal::Triangle> triangles;
-  for (const Triangle& t : mesh.triangles())
-    triangles.emplace_back(t[0], t[1], t[2]);
-  auto model = std::make_unique<CoalModel>();
-  model->beginModel(static_cast<unsigned>(triangles.size()), static_cast<unsigned>(vertices.size()));
-  model->addSubModel(vertices, triangles);
-  model->endModel();
-  return model;
-}
-
 struct CoalBodies {
   explicit CoalBodies(const PreparedScene& prepared)
-      : scene(modelOf(prepared.meshes.scene)), part(modelOf(prepared.meshes.part)) {}
+      : scene(coalModelOf(prepared.meshes.scene)), part(coalModelOf(prepared.meshes.part)) {}
   std::unique_ptr<CoalModel> scene, part;
 };
 using CoalBodiesPtr = std::shared_ptr<const CoalBodies>;
-
-coal::Transform3s toCoal(const RigidTransform& pose) {
-  const glm::dquat& q = pose.rotation;
-  return {coal::Quatf(q.w, q.x, q.y, q.z),
-          coal::Vec3s(pose.translation.x, pose.translation.y, pose.translation.z)};
-}
 
 /// The least distance over all triangles.
 class CoalDistance : public QueryMethod {
@@ -132,7 +110,7 @@ std::vector<MethodEntry> coalMethods() {
 
 std::vector<BuildEntry> coalBuilds() {
   return {{"coal", [](const TriangleMesh& mesh) -> BuiltHierarchy {
-             const std::shared_ptr<const CoalModel> model = modelOf(mesh);
+             const std::shared_ptr<const CoalModel> model = coalModelOf(mesh);
              const std::size_t bytes = sizeof(coal::BVNode<coal::OBBRSS>) * model->getNumBVs() +
                                        sizeof(coal::Triangle) * model->num_tris +
                                        sizeof(coal::Vec3s) * model->num_vertices;

@@ -10,6 +10,7 @@ void addQueryCommand(CLI::App& program);
 void addBuildCommand(CLI::App& program);
 void addSceneCommand(CLI::App& program);
 void addProgramCommand(CLI::App& program);
+void addCheckCommand(CLI::App& program);
 void addCertifyCommand(CLI::App& program);
 void addPathCommand(CLI::App& program);
 void addSuggestCommand(CLI::App& program);

@@ -12,6 +12,7 @@ void addCommands(CLI::App& program, int, char**) {
   nearfit::bench::addBuildCommand(program);
   nearfit::bench::addSceneCommand(program);
   nearfit::bench::addProgramCommand(program);
+  nearfit::bench::addCheckCommand(program);
   nearfit::bench::addCertifyCommand(program);
   nearfit::bench::addPathCommand(program);
   nearfit::bench::addSuggestCommand(program);

@@ -1,6 +1,7 @@
 #include <iterator>
 #include <utility>
 
+#include "tests/bench/check_peer.h"
 #include "tests/bench/query_method.h"
 
 #ifdef NEARFIT_BENCH_FCL
@@ -46,6 +47,17 @@ std::vector<BuildEntry> allBuilds() {
 #endif
 #ifdef NEARFIT_BENCH_COAL
   append(all, coalBuilds());
+#endif
+  return all;
+}
+
+std::vector<CheckPeer> checkPeers() {
+  std::vector<CheckPeer> all;
+#ifdef NEARFIT_BENCH_FCL
+  all.push_back(fclCheckPeer());
+#endif
+#ifdef NEARFIT_BENCH_COAL
+  all.push_back(coalCheckPeer());
 #endif
   return all;
 }

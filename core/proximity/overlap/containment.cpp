@@ -99,17 +99,16 @@ MeshComponents piecesOf(const TriangleMesh& mesh) {
   for (std::uint32_t e = 0; e < mesh.edges().size(); ++e) {
     if (!isBalanced(mesh, e)) pieces.isClosed[pieces.pieceOf[mesh.facesOfEdge(e)[0]]] = false;
   }
+  for (std::uint32_t f = 0; f < mesh.triangles().size(); ++f) {
+    if (!pieces.isClosed[pieces.pieceOf[f]]) continue;
+    for (const std::uint32_t v : mesh.triangles()[f])
+      pieces.closedBox.add(mesh.vertices()[v]);
+  }
   return pieces;
 }
 
 PlacedSolid::PlacedSolid(const PlacedMesh& mesh, const MeshComponents& pieces)
-    : mesh_(mesh), pieces_(pieces) {
-  for (std::uint32_t f = 0; f < pieces.pieceOf.size(); ++f) {
-    if (!pieces.isClosed[pieces.pieceOf[f]]) continue;
-    for (const glm::dvec3& p : mesh.corners(f))
-      box_.add(p);
-  }
-}
+    : mesh_(mesh), pieces_(pieces), box_(mesh.placed(pieces.closedBox)) {}
 
 bool PlacedSolid::contains(const glm::dvec3& point) const {
   if (!doOverlap(box_, {point, point})) return false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -16,14 +17,29 @@ struct MeshComponents {
   /// True for each component in which as many triangles run one way along each edge as the other, so that it
   /// winds around every point off it a whole number of times.
   std::vector<bool> isClosed;
+  Aabb closedBox;  ///< Of those, in the mesh's frame [m]; empty if there are none.
 };
 /// Finds the components of a mesh. O(n).
 MeshComponents piecesOf(const TriangleMesh& mesh);
 
+/// Components of one mesh, found when first needed. Thread-safe: one thread searches, others wait for it.
+class ComponentsOnDemand {
+ public:
+  /// piecesOf() the mesh; it must be the same mesh in each call.
+  const MeshComponents& of(const TriangleMesh& mesh) {
+    std::call_once(once_, [&] { components_ = piecesOf(mesh); });
+    return components_;
+  }
+
+ private:
+  std::once_flag once_;
+  MeshComponents components_;
+};
+
 /// Solid that the closed components of a placed mesh enclose.
 class PlacedSolid {
  public:
-  /// @param mesh, pieces  Kept by reference.
+  /// @param mesh, pieces  Kept by reference. O(1).
   PlacedSolid(const PlacedMesh& mesh, const MeshComponents& pieces);
 
   /// True if the closed components wind around a point in the pose's frame, which must lie on none of their
@@ -41,7 +57,7 @@ class PlacedSolid {
 
   const PlacedMesh& mesh_;
   const MeshComponents& pieces_;
-  Aabb box_;  ///< Box of the closed components, as placed.
+  Aabb box_;  ///< Holds the closed components, as placed.
 };
 
 }  // namespace nearfit

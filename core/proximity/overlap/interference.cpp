@@ -94,13 +94,20 @@ std::optional<std::uint32_t> pieceInside(const PlacedMesh& inner, const MeshComp
 
 Interference findInterference(const NormalConeTree& scene, const NormalConeTree& part,
                               const RigidTransform& sceneFromPart) {
+  ComponentsOnDemand scenePieces, partPieces;
+  return findInterference({scene, scenePieces}, {part, partPieces}, sceneFromPart);
+}
+
+Interference findInterference(const InterferenceBody& scene, const InterferenceBody& part,
+                              const RigidTransform& sceneFromPart) {
   if (!sceneFromPart.isFinite()) throw UsageError("pose", "it is not finite", "give finite numbers");
-  const PlacedMesh placedScene(scene, nullptr), placedPart(part, &sceneFromPart);
+  const PlacedMesh placedScene(scene.tree, nullptr), placedPart(part.tree, &sceneFromPart);
   if (const auto meeting = MeetingSearch(placedScene, placedPart).find(sceneFromPart)) return *meeting;
   // Most bodies that are apart have boxes that are: components cost time by the number of their triangles.
-  if (!doOverlap(boundsOf(part.mesh().bounds(), sceneFromPart), scene.mesh().bounds())) return {};
+  if (!doOverlap(boundsOf(placedPart.mesh().bounds(), sceneFromPart), placedScene.mesh().bounds())) return {};
 
-  const MeshComponents scenePieces = piecesOf(scene.mesh()), partPieces = piecesOf(part.mesh());
+  const MeshComponents &scenePieces = scene.components.of(placedScene.mesh()),
+                       &partPieces = part.components.of(placedPart.mesh());
   if (const auto triangle = pieceInside(placedPart, partPieces, PlacedSolid(placedScene, scenePieces))) {
     return {InterferenceKind::PartInside, Interference::kNone, *triangle};
   }

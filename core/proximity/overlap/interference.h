@@ -7,6 +7,7 @@
 
 namespace nearfit {
 
+class ComponentsOnDemand;
 class NormalConeTree;
 
 /// How two bodies meet.
@@ -42,6 +43,15 @@ struct Interference {
 /// Stops at the first pair of triangles that meet. Allocates, and CGAL's exact numbers are slow where needed:
 /// not for the servo thread. O(log n) per component, besides the search for pairs of triangles.
 Interference findInterference(const NormalConeTree& scene, const NormalConeTree& part,
+                              const RigidTransform& sceneFromPart);
+
+/// A body that is asked about again and again.
+struct InterferenceBody {
+  const NormalConeTree& tree;
+  ComponentsOnDemand& components;  ///< Of the hierarchy's mesh (containment.h).
+};
+/// As above, but finds the components of a body once, which takes time by the number of its triangles.
+Interference findInterference(const InterferenceBody& scene, const InterferenceBody& part,
                               const RigidTransform& sceneFromPart);
 
 }  // namespace nearfit

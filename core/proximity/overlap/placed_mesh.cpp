@@ -1,6 +1,12 @@
 #include "core/proximity/overlap/placed_mesh.h"
 
+#include "core/proximity/query/broad_phase.h"
+
 namespace nearfit {
+
+Aabb PlacedMesh::placed(const Aabb& box) const noexcept {
+  return frameFromMesh_ == nullptr ? box : boundsOf(box, *frameFromMesh_);
+}
 
 glm::dvec3 PlacedMesh::toTree(const glm::dvec3& point) const noexcept {
   const glm::dvec3 inMesh = frameFromMesh_ == nullptr ? point : frameFromMesh_->inverse().applyToPoint(point);

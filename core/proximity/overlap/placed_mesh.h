@@ -35,6 +35,8 @@ class PlacedMesh {
     const Triangle& t = mesh().triangles()[triangle];
     return {vertex(t[0]), vertex(t[1]), vertex(t[2])};
   }
+  /// Returns a box in the pose's frame that holds what `box`, in the mesh's frame, holds; empty if it is.
+  Aabb placed(const Aabb& box) const noexcept;
   /// Maps a point from the pose's frame to the hierarchy's centred frame, to rounding.
   glm::dvec3 toTree(const glm::dvec3& point) const noexcept;
 

@@ -1,5 +1,6 @@
 #include "core/proximity/overlap/interference.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -10,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/exact/triangle_predicates.h"
 #include "core/proximity/hierarchy/normal_cone_tree.h"
+#include "core/proximity/overlap/containment.h"
 #include "tests/exact/exact_meeting.h"
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/lmd_comparison.h"
@@ -124,6 +126,30 @@ TEST(Interference, BodyInsideASolidIsTold) {
   EXPECT_EQ(scene.kind, Kind::SceneInside);
   EXPECT_EQ(scene.sceneTriangle, 0U);
   EXPECT_EQ(between(outer, inner, shift(3.0, 0, 0)).kind, Kind::Disjoint);
+}
+
+TEST(Interference, ComponentsKeptFromPoseToPoseChangeNoAnswer) {
+  // Beside the solid an open sheet, which contains nothing.
+  const Built outer(test::joined(test::boxMesh({4, 4, 4}), test::squareMesh(20.0, 1))),
+      inner(test::joined(test::starMesh(1, 0.5, 1, 0.3), test::boxMesh({0.25, 0.25, 0.25}, {9, 0, 0})));
+  ComponentsOnDemand outerPieces, innerPieces;
+  std::mt19937_64 random(5);
+  int inside = 0;
+  for (int i = 0; i < 200; ++i) {
+    RigidTransform pose = test::randomRotation(random);
+    pose.translation = {0.05 * (i - 100), 0.7, 1.1};
+    const Interference anew = between(outer, inner, pose);
+    const Interference kept = findInterference({outer.tree, outerPieces}, {inner.tree, innerPieces}, pose);
+    EXPECT_EQ(kept.kind, anew.kind);
+    EXPECT_EQ(kept.sceneTriangle, anew.sceneTriangle);
+    EXPECT_EQ(kept.partTriangle, anew.partTriangle);
+    if (anew.kind != Kind::PartInside) continue;
+    ++inside;
+    const glm::dvec3 p =
+        pose.applyToPoint(inner.mesh.vertices()[inner.mesh.triangles()[anew.partTriangle][0]]);
+    EXPECT_LT(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 2.0);
+  }
+  EXPECT_GT(inside, 0);
 }
 
 TEST(Interference, VerticesInLineWithEdgesAreStillTold) {

@@ -1,0 +1,89 @@
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include <coal/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <coal/collision.h>
+#include <coal/distance.h>
+
+#include "tests/bench/check_peer.h"
+#include "tests/bench/coal_bodies.h"
+#include "tests/bench/peer_check.h"
+
+namespace nearfit::bench {
+namespace {
+
+using CoalModelPtr = std::shared_ptr<CoalModel>;
+
+std::uint32_t indexOfCoal(const coal::CollisionObject& object) {
+  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object.getUserData()));
+}
+
+/// Keeps Coal's traversal for the least distance from going below the threshold.
+struct CoalPairsWithin : coal::DistanceCallBackBase {
+  explicit CoalPairsWithin(double within) : threshold(within) {}
+
+  bool distance(coal::CollisionObject* a, coal::CollisionObject* b, coal::CoalScalar& least) override {
+    least = threshold;
+    if (a->getAABB().distance(b->getAABB()) <= threshold)
+      pairs.emplace_back(indexOfCoal(*a), indexOfCoal(*b));
+    return false;
+  }
+
+  double threshold;
+  std::vector<PeerIndices> pairs;
+};
+
+class CoalParts {
+ public:
+  static std::vector<CoalModelPtr> makeModels(std::span<const TriangleMesh> meshes) {
+    return peerModels(meshes, [](const TriangleMesh& mesh) { return CoalModelPtr(coalModelOf(mesh)); });
+  }
+
+  CoalParts(const ManyPartsScene& scene, const std::vector<CoalModelPtr>& models) {
+    for (const ManyPartsPlace& place : scene.parts)
+      objects_.push_back(
+          std::make_unique<coal::CollisionObject>(models[place.mesh], toCoal(place.worldFromPart)));
+  }
+
+  std::vector<PeerIndices> pairsWithin(double threshold) const {
+    coal::DynamicAABBTreeCollisionManager manager;
+    std::vector<coal::CollisionObject*> objects;
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      objects_[i]->setUserData(reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
+      objects.push_back(objects_[i].get());
+    }
+    manager.registerObjects(objects);
+    manager.setup();
+    CoalPairsWithin found(threshold);
+    manager.distance(&found);
+    return std::move(found.pairs);
+  }
+
+  double distance(const PeerIndices& pair, double within) const {
+    // A depth of what overlaps is not asked for.
+    const coal::DistanceRequest request(true, false);
+    coal::DistanceResult result;
+    // Bounds its search, as a user would who wants no more.
+    result.min_distance = within;
+    coal::distance(objects_[pair.first].get(), objects_[pair.second].get(), request, result);
+    return result.min_distance;
+  }
+
+  bool doMeet(const PeerIndices& pair) const {
+    const coal::CollisionRequest request;
+    coal::CollisionResult result;
+    return coal::collide(objects_[pair.first].get(), objects_[pair.second].get(), request, result) > 0;
+  }
+
+ private:
+  std::vector<std::unique_ptr<coal::CollisionObject>> objects_;
+};
+
+}  // namespace
+
+CheckPeer coalCheckPeer() {
+  return {"coal", measurePeer<CoalParts>};
+}
+
+}  // namespace nearfit::bench
