@@ -60,7 +60,7 @@ std::string measure(const std::string& name, const TriangleMesh& mesh, const Bui
 
 void runBuild(const BuildOptions& options) {
   const std::vector<BuildEntry> methods = chosen(allBuilds(), options.methods, "--methods");
-  const std::string machine = machineComment();
+  const std::string machine = machineComment(options.csv);
   fmt::print("{}\n{:<16}{:>11}  {:<20}{:>12}{:>12}{:>14}\n", machine, "mesh", "triangles", "method",
              "least s", "median s", "bytes/triangle");
   std::string rows;

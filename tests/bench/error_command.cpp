@@ -56,7 +56,7 @@ void runError(const ErrorOptions& options) {
   if (options.isList) return printLists(errorPairs(), allErrorMethods());
   const std::vector<ErrorMethodEntry> methods = chosen(allErrorMethods(), options.methods, "--methods");
   const std::vector<ErrorPair> pairs = chosen(errorPairs(), options.pairs, "--pairs");
-  const std::string machine = machineComment() + settingsComment(options.run);
+  const std::string machine = machineComment(options.csv) + settingsComment(options.run);
   fmt::print("{}Times in us, lengths in m, errors root mean square.\n{}", machine, errorTableHeader());
   std::vector<ErrorRow> rows;
   std::string csv;

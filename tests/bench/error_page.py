@@ -167,7 +167,8 @@ def page(table):
     lines += ["", "![Run time against error](error_headline.png)", "",
               "## Who is on the Pareto front", "",
               "Points (a method on a mesh) that no other beats in both median time and error, over all pairs; what is better "
-              "by less than 2 % does not beat:", ""]
+              "by less than 2 % does not beat. *grouped*, a filter that no program uses and that drops minima, is left out of fronts. "
+              "Times of *exact tracked* leave out the thread that searches ahead.", ""]
     lines += shares(table)
     lines += ["", "## Where a method that is not exact wins", ""]
     lines += win_lines(table)

@@ -14,7 +14,7 @@ INK, PALE, FRONT = "#333333", "#e9e9e9", "#f2dc9b"
 STYLES = {  # Colour, marker, line.
     "exact tracked": (COLOURS[0], "o", "-"),
     "exact cold": ("#e08a1e", "s", "-"),
-    "exact grouped": ("#7d3c98", "D", "--"),
+    "grouped": ("#7d3c98", "D", "--"),
     "normal span": (COLOURS[1], "v", "-"),
     "float leaves": ("#1aa6b7", "P", "-"),
     "decimated 4x": ("#7b5b3a", "X", "-"),
@@ -166,7 +166,7 @@ def convergence(table, file):
     """How the exact engine's errors fall with the edges' length."""
     panels = [("exact cold", "distance", "distance [m]"), ("exact cold", "position", "position [m]"),
               ("exact cold", "direction", "direction [rad]"), ("exact cold", "force", "force [N], a spring each minimum"),
-              ("exact grouped", "force", "force [N], a spring each group")]
+              ("grouped", "force", "force [N], a spring each group")]
     panels = [p for p in panels if p[0] in table.methods]
     smooth = [p for p in table.pairs if max(r["position_rms_m"] for r in table.of(p, panels[0][0])) > data.SETTLED]
     colours = dict(zip(smooth, plt.get_cmap("tab20")(np.arange(20) % 20)))

@@ -151,7 +151,7 @@ void checkAll(const std::vector<FeelRow>& rows) {
 void runFeel(const FeelOptions& options) {
   if (options.cost.warmUp >= options.cost.block)
     throw UsageError("--warm-up", "no tick of a block would be timed", "give less than --block");
-  const std::string machine = machineComment() + settingsComment(options);
+  const std::string machine = machineComment(options.csv) + settingsComment(options);
   fmt::print("{}", machine);
   std::vector<FeelRow> rows;
   for (const std::string& group : options.groups) {

@@ -146,7 +146,7 @@ std::string settingsComment(const ImportCommandOptions& options) {
 void runImport(const ImportCommandOptions& options) {
   const std::filesystem::path program = occProgram();
   const std::vector<DocumentEntry> documents = documentsOf(options, program);
-  std::string machine = machineComment() + settingsComment(options), lines;
+  std::string machine = machineComment(options.csv) + settingsComment(options), lines;
   fmt::print("{}{}", machine, importTableHeader());
   std::vector<std::string> problems;
   std::string version;

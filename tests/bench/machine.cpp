@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "tests/bench/query_method.h"
+#include "tests/bench/run_rules.h"
 
 namespace nearfit::bench {
 namespace {
@@ -68,13 +69,20 @@ std::vector<std::pair<std::string, std::string>> machineDescription() {
       {"flags", NEARFIT_BENCH_FLAGS},
       {"revision", kGitRevision},
       {"peers", peerDescription()},
+      {"command", runRules().command},
       {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
       {"load at start", loadAverages()},
   };
 }
 
-std::string machineComment() {
+std::string machineComment(const std::filesystem::path& file) {
+  const double atWork = othersAtWork();
+  checkRepeatable(file, NEARFIT_SOURCE_DIR, kGitRevision, atWork, runRules().allowsBusy);
   std::string text;
+  if (isBusy(atWork)) {
+    text = fmt::format("# busy machine: other programs kept {:.1f} of {} processors at work before the run\n",
+                       atWork, sysconf(_SC_NPROCESSORS_ONLN));
+  }
   for (const auto& [name, value] : machineDescription())
     text += fmt::format("# {}: {}\n", name, value);
   return text;

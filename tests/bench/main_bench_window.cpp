@@ -58,8 +58,8 @@ void measure(CommandOptions options, int argc, char** argv) {
   desktop::Application::configure();
   options.window.program = std::filesystem::canonical("/proc/self/exe").string();
   options.window.time = std::chrono::milliseconds(static_cast<int>(1e3 * options.seconds));
-  const std::string machine =
-      bench::machineComment() + fmt::format("# {} turns of {} s\n", options.window.turns, options.seconds);
+  const std::string machine = bench::machineComment(options.csv) +
+                              fmt::format("# {} turns of {} s\n", options.window.turns, options.seconds);
   fmt::print("{}\n{}", machine, bench::figureTableHeader());
   std::string lines;
   for (const Entry& entry : bench::chosen(entries(), options.names, "--figures")) {

@@ -43,7 +43,7 @@ void checkAll(const std::vector<StepRunRow>& rows) {
 }
 
 void runProgram(const ProgramOptions& options) {
-  const std::string machine = machineComment() + settingsComment(options.run);
+  const std::string machine = machineComment(options.csv) + settingsComment(options.run);
   fmt::print("{}", machine);
   const std::vector<StepRunRow> rows = runSteps(options.run);
   fmt::print("Times in us.\n{}", stepRunTable(rows));

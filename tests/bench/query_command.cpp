@@ -117,7 +117,7 @@ void measureScene(const SceneEntry& entry, const std::vector<MethodEntry>& metho
 void runQuery(const QueryOptions& options) {
   if (options.isList) return printLists(options);
   const std::vector<MethodEntry> methods = methodsOf(options);
-  const std::string machine = machineComment() + settingsComment(options);
+  const std::string machine = machineComment(options.csv) + settingsComment(options);
   fmt::print("{}", machine);
   Results results;
   for (const SceneEntry& scene : scenesOf(options))
@@ -139,7 +139,7 @@ void addSceneOptions(CLI::App& command, QueryOptions& o) {
   command.add_flag("--list", o.isList, "Say which scenes and methods there are, and measure nothing");
   command.add_option("--scenes", o.scenes, "Built-in scenes, with commas between; all of them by default")
       ->delimiter(',');
-  command.add_option("--shared", o.sharedFolder, "Folder of shared models: adds the paper's six pairs")
+  command.add_option("--shared", o.sharedFolder, "Folder of shared models: adds the six paper-* pairs")
       ->check(CLI::ExistingDirectory);
   CLI::Option* scene =
       command.add_option("--scene", o.sceneFile, "Mesh that stays, instead of built-in scenes");

@@ -102,7 +102,7 @@ void runScene(const SceneOptions& options) {
   if (options.run.warmUp >= options.run.block) {
     throw UsageError("--warm-up", "no tick of a block would be timed", "give less than --block");
   }
-  const std::string machine = machineComment() + settingsComment(options);
+  const std::string machine = machineComment(options.csv) + settingsComment(options);
   fmt::print("{}", machine);
   // Before the ticks, whose scenes would leave holes in the memory.
   std::vector<InstancesRow> instances;

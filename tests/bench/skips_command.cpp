@@ -33,7 +33,7 @@ std::string settingsComment(const SkipOptions& o) {
 void runSkips(const CommandOptions& options) {
   const std::vector<SkipEntry> skips = chosen(allSkips(), options.without, "--without");
   if (options.skips.run.cpu) pinTo(*options.skips.run.cpu);
-  const std::string machine = machineComment() + settingsComment(options.skips);
+  const std::string machine = machineComment(options.csv) + settingsComment(options.skips);
   fmt::print("{}\n{}", machine, skipTableHeader());
   std::vector<SkipRow> rows;
   std::string lines;

@@ -4,7 +4,6 @@ import collections
 import csv
 import json
 import pathlib
-import platform
 import subprocess
 from dataclasses import dataclass
 
@@ -31,9 +30,8 @@ def revision(root):
     return subprocess.run(command, capture_output=True, text=True).stdout.strip()
 
 
-def machine():
-    names = [line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
-    return f"{len(names)} cores of {names[0] if names else 'unknown'}, {platform.system()} {platform.release()}"
+def _processor(head):
+    return next(line.partition(": ")[2] for line in head if line.startswith("processor: "))
 
 
 def draw(evidence, recording, row, file):
@@ -106,7 +104,8 @@ def _goals(file, results):
     return kept
 
 
-def write(results, folder, programs):
+def write(results, folder, head):
+    """`head`: lines that describe machine, compiler, revision and load of this run; rows of others name their own revision."""
     from scenes import all_evidence
     names = [e.name for e in all_evidence()]
     rows = _merged(folder / "evidence.csv", results)
@@ -114,18 +113,18 @@ def write(results, folder, programs):
     order = [name for name in names if name in rows]
     fields = list(results[0].row) if results else []
     with open(folder / "evidence.csv", "w", newline="") as out:
-        out.write(f"# machine: {machine()}\n")
+        out.writelines(f"# {line}\n" for line in head)
         writer = csv.DictWriter(out, fields, extrasaction="ignore", restval="")
         writer.writeheader()
         writer.writerows(rows[name] for name in order)
     (folder / "goals.json").write_text(json.dumps({n: goals[n] for n in order if n in goals}, indent=1) + "\n")
-    (folder / "README.md").write_text(markdown([rows[n] for n in order], goals, {e.name: e for e in all_evidence()}))
+    (folder / "README.md").write_text(markdown(head, [rows[n] for n in order], goals, {e.name: e for e in all_evidence()}))
 
 
-def markdown(rows, goals, evidence):
+def markdown(head, rows, goals, evidence):
     lines = ["# What the proxy did", "",
              "Written by `tests/evidence/run`, which says how; [../README.md](../README.md) tells what is shown.", "",
-             f"Machine: {machine()}. Revision and load (1 min) stand in [evidence.csv](evidence.csv), a row a scene.", "",
+             f"Machine: {_processor(head)}. Revision and load (1 min) stand in [evidence.csv](evidence.csv), a row a scene.", "",
              "| scene | ticks | poses that meet | margin [mm] | least distance [margins] | ticks shortened | refused | "
              "noise at rest [N] | ticks at rest that step | ticks behind | drag p50, p99 [%], ticks beyond 2 % | wrench p50, p99, p99.9, longest [us] | "
              "tick p50, p99, p99.9, longest [us] |",

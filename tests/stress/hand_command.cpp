@@ -14,6 +14,7 @@
 
 #include "core/base/error.h"
 #include "tests/bench/bench_clock.h"
+#include "tests/bench/machine.h"
 #include "tests/stress/commands.h"
 #include "tests/stress/hand_run.h"
 #include "tests/stress/stress_scene.h"
@@ -91,6 +92,8 @@ std::vector<Row> runScenes(const std::vector<StressEntry>& scenes, const HandOpt
 }
 
 void run(const HandOptions& options) {
+  fmt::print("{}", bench::machineComment());
+  std::fflush(stdout);
   const std::vector<StressEntry> scenes = chosenScenes(stressScenes(NEARFIT_SHARED_DIR), options.scenes);
   fmt::print("{}", kColumns);
   const std::vector<Row> rows = runScenes(scenes, options);

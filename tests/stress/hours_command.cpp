@@ -1,9 +1,11 @@
+#include <cstdio>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "tests/bench/machine.h"
 #include "tests/stress/commands.h"
 #include "tests/stress/long_run.h"
 
@@ -11,6 +13,8 @@ namespace nearfit::stress {
 namespace {
 
 void run(double hours) {
+  fmt::print("{}", bench::machineComment());
+  std::fflush(stdout);
   constexpr double kHour = 3600.0;
   const LongRunResult r = runLong(kHour * hours);
   fmt::print(

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "tests/bench/machine.h"
 #include "tests/stress/commands.h"
 #include "tests/stress/stiffness_limit.h"
 
@@ -11,6 +12,8 @@ namespace nearfit::stress {
 namespace {
 
 void run() {
+  fmt::print("{}", bench::machineComment());
+  std::fflush(stdout);
   fmt::print(
       "mass kg,damping N s/m,period ms,coupling damping N s/m,simulated N/m,exact N/m,enforced N/m,"
       "simulated by enforced\n");

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.h"
+#include "tests/bench/machine.h"
 #include "tests/stress/commands.h"
 #include "tests/stress/oracle_campaign.h"
 #include "tests/stress/oracle_pairs.h"
@@ -44,6 +45,8 @@ std::vector<test::BodyPair> chosenPairs(const std::vector<std::string>& names) {
 }
 
 void runOracle(const OracleOptions& options) {
+  fmt::print("{}", bench::machineComment());
+  std::fflush(stdout);
   const std::vector<test::BodyPair> pairs = chosenPairs(options.pairs);
   OracleRange range = options.range;
   range.count = (options.poses + pairs.size() - 1) / pairs.size();

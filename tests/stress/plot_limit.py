@@ -11,7 +11,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 def rows(path):
     with open(path, newline="") as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        table = csv.DictReader(line for line in file if not line.startswith("#"))
+        return [{key: float(value) for key, value in row.items()} for row in table]
 
 
 def main(source, picture):

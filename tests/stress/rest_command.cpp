@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "tests/bench/machine.h"
 #include "tests/bench/selection.h"
 #include "tests/stress/commands.h"
 #include "tests/stress/press_trial.h"
@@ -19,6 +21,8 @@ namespace {
 constexpr double kMinRestTicks = 3000.0;
 
 void run(double seconds, const std::vector<std::string>& names) {
+  fmt::print("{}", bench::machineComment());
+  std::fflush(stdout);
   fmt::print(
       "scene,stiffness wished N/m,stiffness N/m,period ms,rough,friction,handle rms um,force rms mN,"
       "torque rms mN m,mean force N,kept,at rest\n");

@@ -1,0 +1,240 @@
+"""Tables and figures of tests/bench/results/README.md."""
+
+import common as c
+import numbers_text as n
+import provenance
+
+METHOD_COLUMNS = ("p50_us", "p99_us", "max_us")
+# "exact" is said of the whole set alone (glossary): this one drops minima.
+METHOD_NAMES = {"exact grouped": "grouped: of near minima the nearest alone (`exact grouped` in the file)"}
+SKIP_NAMES = {
+    "features": "features that can carry no minimum", "barriers": "barriers that cannot be there, as bodies are apart",
+    "broad-phase": "1,000 parts out of reach", "still-ticks": "minima of a tick at rest",
+    "lists": "searches, by lists from the other thread", "instances": "99 of 100 equal geometries",
+    "laziness": "hierarchies of 97 hidden parts of 100", "cache": "parsing and building of files read before",
+    "frames": "frames without change",
+}
+
+
+def _us(value):
+    """A time in us without its unit, which stands in the table's caption."""
+    return n.plain(value)
+
+
+def queries(results):
+    paper, generated = results.bench("query_paper"), results.bench("query_generated")
+    scenes = [(paper, f"paper-{pair}") for pair in c.PAIRS] + [(paper, "scan-bunny-armadillo"), (generated, "organic-70k"),
+                                                               (generated, "organic-1m"),
+                                                               (results.bench("query_flats"), "peg-hole")]
+    rows = []
+    for table, scene in scenes:
+        cold, tracked, fcl = ({"scene": scene, "method": m} for m in ("nearfit-cold", "nearfit-tracked", "fcl-seeded"))
+        sizes = [n.count(table.number(column, **cold)) for column in ("scene_triangles", "part_triangles")]
+        rows.append([f"{scene} ({sizes[0]}, {sizes[1]})", *(_us(table.number(k, **cold)) for k in METHOD_COLUMNS),
+                     *(_us(table.number(k, **tracked)) for k in ("p50_us", "p99_us", "p99_9_us", "max_us")),
+                     n.count(table.number("count_max", **cold)), *(_us(table.number(k, **fcl)) for k in METHOD_COLUMNS)])
+    return n.table(["pair (triangles)", "searched anew: p50", "p99", "max", "tracked: p50", "p99", "p99.9", "max",
+                    "minima at most", "FCL, min distance alone: p50", "p99", "max"], rows)
+
+
+def million(results):
+    table = results.bench("build")
+    rows = []
+    for method, what in (("nearfit-tree", "hierarchy"), ("fcl", "FCL's hierarchy"),
+                         ("nearfit-cache-write", "mesh and hierarchy to the cache"),
+                         ("nearfit-cache-query", "from the cache, and a first query; mapped at that revision, read whole since")):
+        where = {"mesh": "organic-1m", "method": method}
+        rows.append([what, n.time(1e6 * table.number("least_s", **where)), n.time(1e6 * table.number("median_s", **where)),
+                     n.plain(table.number("bytes_per_triangle", **where))])
+    return n.table([f"{n.count(table.number('triangles', mesh='organic-1m', method='fcl'))} triangles, machine "
+                    f"{c.machine_letter(table)}", "least", "median", "bytes a triangle"], rows)
+
+
+def far_parts(results):
+    table = results.bench("scene")
+    rows = []
+    for row in table.where():
+        if row["parts"] == "alone":
+            continue
+        rows.append([f"{row['scene']}, {n.count(float(row['other_parts']) - 1)}",
+                     *(f"x {n.times(float(row[f'{p}_ratio']))}" for p in ("p50", "p99", "mean")),
+                     n.time(float(row["tick_max_us"])),
+                     n.time(table.number("tick_max_us", scene=row["scene"], parts="alone"))])
+    return n.table(["other parts far away", "tick against the parts alone: p50", "p99", "mean", "longest tick", "longest alone"], rows)
+
+
+def ticks(results):
+    table = results.bench("feel")
+    rows = []
+    for pair in c.PAIRS:
+        cells = []
+        for run in ("0.1 m/s", "1 m/s"):
+            where = {"group": "cost", "scene": f"paper-{pair}", "run": run}
+            for quantity in ("tick [us]", "springs' tick [us]"):
+                cells += [_us(table.number(p, quantity=quantity, **where)) for p in ("p50", "p99", "max")]
+        rows.append([c.pair_name(pair), *cells])
+    return n.table(["proxy's tick, then that of springs", "0.1 m/s: p50", "p99", "max", "springs: p50", "p99", "max",
+                    "1 m/s: p50", "p99", "max", "springs: p50", "p99", "max"], rows)
+
+
+def conforming_ticks(results):
+    table = results.bench("feel")
+    rows = []
+    for scene, name in c.CONFORMING.items():
+        cells = [_us(table.number(p, group="cost", scene=scene, run="conforming", quantity=quantity))
+                 for quantity in ("tick [us]", "springs' tick [us]") for p in ("p50", "p99", "max")]
+        rows.append([name, *cells])
+    return n.table(["conforming parts, tick with queries", "p50", "p99", "max", "springs: p50", "p99", "max"], rows)
+
+
+def ticks_verdict(results):
+    """Who misses the goal of a whole tick, by name."""
+    table = results.bench("feel")
+    missed = []
+    runs = [(f"paper-{pair}", run, f"{c.pair_name(pair)} at {run}") for run in ("0.1 m/s", "1 m/s") for pair in c.PAIRS]
+    runs += [(scene, "conforming", name) for scene, name in c.CONFORMING.items()]
+    for scene, run, name in runs:
+        where = {"group": "cost", "scene": scene, "run": run, "quantity": "tick [us]"}
+        over = [p for p, goal in zip(("p50", "p99"), c.TICK_GOALS) if table.number(p, **where) > goal]
+        if over:
+            missed.append(f"{name} ({', '.join(over)})")
+    return f"Of {len(runs)} runs {len(missed)} miss the goal: {'; '.join(missed)}." if missed else "All meet the goal."
+
+
+def smoothness(results):
+    table = results.bench("feel")
+    rows = []
+    for scene, name in c.CONFORMING.items():
+        cells = []
+        for run in ("proxy x10", "spring x10", "printed x10"):
+            for kind in ("force", "torque"):
+                where = {"group": "smoothness", "scene": scene, "run": run, "quantity": f"{kind} change ratio"}
+                cells += [n.times(table.number(p, **where)) for p in ("p50", "p99", "max")]
+        rows.append([name, *cells])
+    head = []
+    for mode in ("proxy", "springs", "printed"):
+        for kind in ("force", "torque"):
+            head += [f"{mode}, {kind}: median", "p99", "largest"]
+    return n.table(["", *head], rows)
+
+
+def births(results):
+    """How large the jumps of the springs' modes are where a minimum comes or goes within the cutoff."""
+    table = results.bench("feel")
+    rows = []
+    for scene, name in c.CONFORMING.items():
+        cells = []
+        for mode in ("spring", "printed"):
+            force = table.number("max", group="smoothness", scene=scene, run=f"{mode} x1", quantity="force [N]")
+            for run in ("x1", "x10"):
+                jump = table.number("max", group="smoothness", scene=scene, run=f"{mode} {run}", quantity="force change [N]")
+                cells.append(f"{n.plain(100 * jump / force)} %")
+        rows.append([name, *cells])
+    return n.table(["largest change of force in a tick, of the largest force", "springs", "10 times slower", "printed law",
+                    "10 times slower"], rows)
+
+
+def skips(results):
+    table = results.bench("skips")
+    rows, last = [], ""
+    for row in table.where():
+        name = SKIP_NAMES.get(row["skip"], row["skip"])
+        memory = ["", ""]
+        if float(row["without_bytes"]) > 0:
+            memory = [f", {n.plain(1e-6 * float(row[f'{side}_bytes']))} MB" for side in ("with", "without")]
+        sides = [f"{n.time(float(row[f'{side}_p50_us']))}{size}" for side, size in zip(("with", "without"), memory)]
+        rows.append(["" if name == last else name, f"{row['where']}, {row['of']}", *sides, n.times(float(row["p50_ratio"])),
+                     n.times(float(row["p99_ratio"]))])
+        last = name
+    return n.table(["not computed", "where", "with the skip, p50", "without", "times, p50", "p99"], rows, right_from=2)
+
+
+def window(results):
+    table = results.bench("window")
+    rows = []
+    for row in table.where():
+        unit = row["unit"]
+        said = ""
+        if row["goal_of"]:
+            is_met = float(row[row["goal_of"]]) <= float(row["goal"])
+            said = f"{'met' if is_met else '**missed**'}: {row['goal_of']} {n.plain(float(row['goal']))} {unit}"
+        rows.append([f"`{row['figure']}`", row["way"], unit, *(n.plain(float(row[p])) for p in ("p50", "p99", "max")), said,
+                     row["remark"]])
+    return n.table(["figure", "way", "unit", "p50", "p99", "max", "goal", "remark"], rows, right_from=9)
+
+
+def _dense_groups(results, group):
+    table = results.bench("dense")
+    scenes = []
+    for row in table.where(group=group):
+        if row["scene"] not in scenes:
+            scenes.append(row["scene"])
+    return table, scenes
+
+
+def dense(results):
+    table, scenes = _dense_groups(results, "dense")
+    rows = []
+    for scene in scenes:
+        where = {"group": "dense", "scene": scene}
+        ratios = {run["run"]: float(run["p99"]) for run in table.where(quantity="p99 over that of x1", **where)}
+        even = max(v for k, v in ratios.items() if "uneven" not in k)
+        uneven = max(v for k, v in ratios.items() if "uneven" in k)
+        rows.append([scene, n.time(max(table.numbers("p99", quantity="tick [us]", **where))),
+                     n.time(max(table.numbers("max", quantity="tick [us]", **where))), n.times(even), n.times(uneven),
+                     f"{max(table.numbers('max', quantity='off the pose of x1 [um]', **where)):.0e} um",
+                     n.count(max(table.numbers("max", quantity="ticks truncated", **where)))])
+    return n.table(["scene, worst of all cuts", "tick: p99", "max", "p99 against x1: finer", "at random places",
+                    "off the pose of x1", "ticks that leave out minima"], rows)
+
+
+def curved(results):
+    table, scenes = _dense_groups(results, "curved")
+    rows = []
+    for scene in scenes:
+        for row in table.where(group="curved", scene=scene, quantity="tick [us]"):
+            where = {"group": "curved", "scene": scene, "run": row["run"]}
+            rows.append([f"{scene}, {row['run']}", *(n.time(float(row[p])) for p in ("p50", "p99", "max")),
+                         n.times(table.number("p99", quantity="p99 over that of x1", **where)),
+                         f"{n.count(table.number('max', quantity='ticks truncated', **where))} of {row['samples']}"])
+    return n.table(["scene", "tick: p50", "p99", "max", "p99 against x1", "ticks that leave out minima"], rows)
+
+
+def feel_million(results):
+    table = results.bench("feel_million")
+    rows = []
+    for row in table.where(group="cost"):
+        if row["quantity"].endswith("tick [us]"):
+            rows.append([f"{row['run']}, {row['quantity'].removesuffix(' [us]')}",
+                         *(n.time(float(row[p])) for p in ("p50", "p99", "p99_9", "max"))])
+    return n.table(["two surfaces of a million triangles", "p50", "p99", "p99.9", "max"], rows)
+
+
+def sources_note(results):
+    """The known stale files among those of the benchmark, in a sentence."""
+    notes = [f"`{file.rsplit('/', 1)[1]}` ({provenance.stale_note(file)})"
+             for file in provenance.result_files(results) if file in provenance.KNOWN]
+    return f"Not to be repeated as they are, until measured anew: {', '.join(notes)}." if notes else "All can be repeated."
+
+
+def _force_error(results, method):
+    return n.span(results.bench("error").numbers("force_rms", pair="sphere-bowl", method=method))
+
+
+def bowl(results):
+    table = results.bench("error")
+    rows = []
+    for method in ("exact cold", "exact tracked", "exact grouped", "normal span", "points in field 32", "points in field 64",
+                   "points in field 128", "decimated 4x", "decimated 16x"):
+        where = {"pair": "sphere-bowl", "method": method}
+        rows.append([METHOD_NAMES.get(method, method), _force_error(results, method), n.span(table.numbers("p50_us", **where)),
+                     n.span(table.numbers("missed", **where)), n.span(table.numbers("extra", **where))])
+    return n.table(["ball in a bowl, all finenesses", "force, rms error [N of 1 N]", "p50 [us]", "missed a pose",
+                    "extra a pose"], rows)
+
+
+FIGURES = {
+    "queries": queries, "build of a million": million, "far parts": far_parts, "ticks": ticks, "conforming ticks": conforming_ticks,
+    "ticks that miss": ticks_verdict, "smoothness": smoothness, "births": births, "skips": skips, "all of window": window,
+    "dense flats": dense, "curved faces": curved, "felt million": feel_million, "stale files": sources_note, "force in the bowl": bowl,
+}

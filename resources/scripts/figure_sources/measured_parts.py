@@ -1,0 +1,216 @@
+"""What resources/scripts/measure runs: parts in order, each with its commands, the files that it makes and a limit of time."""
+
+import pathlib
+import re
+import subprocess
+from dataclasses import dataclass, field
+
+# All parts together, waiting for a quiet machine not counted.
+MAX_MINUTES = 120
+PAPER = ("paper-bunny-sphere,paper-spring-teapot,paper-gear-disc,paper-gear-gear,paper-crankshaft-gear,paper-crankshaft-sphere,"
+         "scan-bunny-armadillo")
+FELT = "cylinder-tube,box-hole,wheels,round-peg,rectangular-peg,gears,nut-bolt"
+XVFB = ["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24"]
+# That of Debian has numpy and matplotlib, which pictures need.
+PYTHON = "/usr/bin/python3"
+
+
+@dataclass
+class Setting:
+    """Of one run: revision, folders, and whether a busy machine is put up with."""
+    revision: str
+    root: pathlib.Path
+    bin: pathlib.Path
+    shared: pathlib.Path
+    folder: pathlib.Path
+    allows_busy: bool = False
+    helps: dict = field(default_factory=dict)
+
+    @property
+    def results(self):
+        """Mirrors tests/, so that nothing among the sources changes until all is done."""
+        return self.folder / "tests"
+
+    def help_of(self, *command):
+        """What a program says to --help; empty if it does not start."""
+        if command not in self.helps:
+            try:
+                said = subprocess.run([str(self.bin / command[0]), *command[1:], "--help"], capture_output=True, text=True)
+                self.helps[command] = said.stdout if said.returncode == 0 else ""
+            except OSError:
+                self.helps[command] = ""
+        return self.helps[command]
+
+
+@dataclass
+class Step:
+    """A command, its standard output in a file if there is one, or a function with words for it.
+
+    `may_miss`: exit code 1 says that a goal was missed, after all results were written. These are results too.
+    """
+    command: list = None
+    output: pathlib.Path = None
+    may_miss: bool = False
+    function: object = None
+    what: str = ""
+
+
+@dataclass
+class Part:
+    """`files` and `pictures` (patterns, beside them) are relative to tests/."""
+    name: str
+    minutes: float
+    files: tuple
+    make: object
+    pictures: tuple = ()
+    program: str = "nearfit-bench"
+    command: str = ""
+
+    def steps(self, setting):
+        return self.make(setting)
+
+    def is_offered(self, setting):
+        """False for a command that the programs do not have, such as one of a later revision."""
+        offered = setting.help_of(self.program)
+        return not self.command or bool(re.search(rf"^\s+{re.escape(self.command)}\b", offered, re.MULTILINE))
+
+    def made(self, setting):
+        """Files that are there, pictures too."""
+        found = [setting.results / name for name in self.files]
+        for pattern in self.pictures:
+            found += sorted(setting.results.glob(pattern))
+        return found
+
+
+def _busy(setting):
+    return ["--allow-busy"] if setting.allows_busy else []
+
+
+def _bench_file(setting, name):
+    return setting.results / "bench" / "results" / name
+
+
+def _bench(setting, command, *options, csv):
+    return Step([str(setting.bin / "nearfit-bench"), command, *_busy(setting), *options, "--csv", str(_bench_file(setting, csv))])
+
+
+def _bench_part(name, minutes, command, *options, csv="", is_shown=False, uses_shared=False):
+    csv = csv or f"{name}.csv"
+
+    def make(setting):
+        shared = ["--shared", str(setting.shared)] if uses_shared else []
+        step = _bench(setting, command, *shared, *options, csv=csv)
+        if is_shown:
+            step.command = XVFB + step.command
+        return [step]
+
+    return Part(name.replace("_", "-"), minutes, (f"bench/results/{csv}",), make, command=command)
+
+
+def _feel(setting):
+    step = _bench(setting, "feel", "--groups", "smoothness,pairs,conforming,sliding", "--shared", str(setting.shared), "--clock", "thread",
+                  "--seconds", "2", "--count", "3000", "--scenes", FELT, csv="feel.csv")
+
+    def certified():
+        lines = _bench_file(setting, "feel.csv").read_text().splitlines(True)
+        kept = [line for line in lines if line.startswith(("#", "group")) or "poses that meet" in line]
+        _bench_file(setting, "certified.csv").write_text("".join(kept))
+
+    return [step, Step(function=certified, what="rows of poses that meet, to certified.csv")]
+
+
+def _scene(setting):
+    step = _bench(setting, "scene", "--repeat", "3", csv="scene.csv")
+    step.command += ["--instances-csv", str(_bench_file(setting, "scene_instances.csv"))]
+    return [step]
+
+
+def _error(setting):
+    page = [PYTHON, str(setting.root / "tests" / "bench" / "error_page.py"), str(_bench_file(setting, "error.csv")), "--out",
+            str(_bench_file(setting, ""))]
+    return [_bench(setting, "error", csv="error.csv"), Step(page)]
+
+
+def _later(command):
+    """A command of which only the name is known here: it gets the options that its help offers."""
+
+    def make(setting):
+        offered = setting.help_of("nearfit-bench", command)
+        options = [word for option, word in (("--shared", str(setting.shared)), ("--clock", "thread")) if option in offered
+                   for word in (option, word)]
+        return [_bench(setting, command, *options, csv=f"{command}.csv")]
+
+    return make
+
+
+def _window(setting):
+    program = [str(setting.bin / "nearfit-bench-window"), "figures", *_busy(setting), "--shared", str(setting.shared), "--csv",
+               str(_bench_file(setting, "window.csv"))]
+    return [Step(XVFB + program)]
+
+
+def _stress_part(name, minutes, *options, file="", pictures=(), draw=None, may_miss=False):
+    file = f"stress/results/{file or f'{name}.csv'}"
+
+    def make(setting):
+        steps = [Step([str(setting.bin / "nearfit-stress"), name, *options], output=setting.results / file, may_miss=may_miss)]
+        return steps + (draw(setting) if draw else [])
+
+    return Part(name, minutes, (file,), make, pictures, "nearfit-stress", name)
+
+
+def _draw_limit(setting):
+    folder = setting.results / "stress" / "results"
+    return [Step([PYTHON, str(setting.root / "tests" / "stress" / "plot_limit.py"), str(folder / "limit.csv"), str(folder / "limit.png")])]
+
+
+def _evidence(setting):
+    results = setting.results / "evidence" / "results"
+    return [Step([PYTHON, str(setting.root / "tests" / "evidence" / "run"), "--models", str(setting.shared / "models" / "public"), "--bin",
+                  str(setting.bin), "--out", str(setting.folder / "evidence"), "--results", str(results), *_busy(setting)], may_miss=True)]
+
+
+def _round_trip(setting):
+    csv = setting.results / "usb" / "results" / "round_trip.csv"
+    return [Step([PYTHON, str(setting.root / "tests" / "usb" / "round_trip"), "--seconds", "12", "--runs", "2", "--models",
+                  str(setting.shared / "models" / "public" / "peghole"), "--bin", str(setting.bin), "--out",
+                  str(setting.folder / "round_trip"), "--csv", str(csv), *_busy(setting)], may_miss=True)]
+
+
+# What is timed comes first; the stress runs, whose results do not depend on time, take all processors.
+PARTS = (
+    _bench_part("query_paper", 4, "query", "--clock", "thread", "--scenes", PAPER, uses_shared=True),
+    _bench_part("query_generated", 6, "query", "--clock", "thread"),
+    _bench_part("query_flats", 3, "query", "--clock", "thread", "--scenes", "peg-hole"),
+    Part("paper", 6, ("bench/results/paper.csv",), _later("paper"), command="paper"),
+    Part("check", 3, ("bench/results/check.csv",), _later("check"), command="check"),
+    _bench_part("build", 2, "build"),
+    _bench_part("program", 4, "program", "--clock", "thread"),
+    Part("feel", 12, ("bench/results/feel.csv", "bench/results/certified.csv"), _feel, command="feel"),
+    _bench_part("dense", 3, "feel", "--groups", "dense,curved", "--count", "1500", "--clock", "thread"),
+    _bench_part("feel_million", 2, "feel", "--groups", "pairs", "--pairs", "organic-1m", "--count", "1500", "--clock", "thread"),
+    _bench_part("tessellation", 3, "feel", "--groups", "tessellation"),
+    Part("error", 9, ("bench/results/error.csv", "bench/results/error.md"), _error, ("bench/results/error_*.png",), command="error"),
+    _bench_part("skips", 4, "skips", is_shown=True),
+    _bench_part("import", 3, "import", uses_shared=True),
+    Part("scene", 2, ("bench/results/scene.csv", "bench/results/scene_instances.csv"), _scene, command="scene"),
+    Part("window", 5, ("bench/results/window.csv",), _window, program="nearfit-bench-window", command="figures"),
+    Part("round-trip", 3, ("usb/results/round_trip.csv",), _round_trip, program="nearfit-emulate"),
+    Part("evidence", 12, ("evidence/results/evidence.csv", "evidence/results/goals.json", "evidence/results/README.md"), _evidence,
+         ("evidence/results/*.png",), program="nearfit-cli"),
+    _stress_part("hand", 16, "--ticks", "10000000", "--certify", "10", "--threads", "2"),
+    _stress_part("rest", 4, may_miss=True),
+    _stress_part("limit", 2, may_miss=True, pictures=("stress/results/limit.png",), draw=_draw_limit),
+    _stress_part("hours", 4, "--hours", "8", may_miss=True),
+    _stress_part("oracle", 8, "--poses", "1000000", "--threads", "2", file="oracle.txt"),
+)
+
+
+def chosen(names):
+    """Parts whose names begin with one of `names`, which have commas between; all where there is none. ValueError for a name that no
+    part begins with."""
+    starts = [name.strip() for name in names.split(",") if name.strip()]
+    for start in starts:
+        if not any(part.name.startswith(start) for part in PARTS):
+            raise ValueError(f'no part begins with "{start}"; choose from {", ".join(part.name for part in PARTS)}')
+    return [part for part in PARTS if not starts or any(part.name.startswith(start) for start in starts)]

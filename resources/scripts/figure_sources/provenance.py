@@ -1,0 +1,132 @@
+"""Which result files cannot be repeated, and why: heads without what they must say, and revisions that are not there."""
+
+import re
+import subprocess
+
+# What is the matter with committed results, until `resources/scripts/measure` makes them anew. A file leaves this list as
+# soon as it is mended (the check fails where the list says more than there is), and none is added.
+KNOWN = {
+    "tests/bench/results/error.csv": {"revision is not in the history", "busy machine"},
+    "tests/bench/results/skips.csv": {"revision is not in the history", "revision is dirty"},
+    "tests/evidence/results/evidence.csv": {"no compiler"},
+    "tests/stress/results/hand.csv": {"no load"},
+    "tests/stress/results/hours.csv": {"no load"},
+    "tests/stress/results/limit.csv": {"no load"},
+    "tests/stress/results/rest.csv": {"no load"},
+    "tests/stress/results/oracle.txt": {"no load"},
+    "tests/usb/results/round_trip.csv": {"no compiler", "busy machine"},
+}
+# A sequence of our own runs leaves a load of up to one a processor behind, twice as many say that others were at work.
+BUSY_LOAD_PER_PROCESSOR = 2.0
+
+
+def result_files(results):
+    found = list(results.root.glob("tests/*/results/*.csv")) + list(results.root.glob("tests/*/results/*.txt"))
+    return sorted(str(file.relative_to(results.root)) for file in found)
+
+
+def stale_note(file):
+    """Words for a reader where a table stands on a known stale file; empty where it does not."""
+    reasons = sorted(KNOWN.get(file, ()))
+    return ", ".join(reasons)
+
+
+def machine(table):
+    return table.head.get("processor") or table.head.get("machine") or ""
+
+
+def compiler(table):
+    if "compiler" in table.head:
+        return table.head["compiler"].replace("GCC-compatible", "GCC")
+    # Heads of older runs name it with the machine, or as a line of its own.
+    named = re.search(r"GCC ([\d.]+)", table.head.get("machine", ""))
+    plain = next((line for line in table.comments if line.startswith("g++")), None)
+    # tests/systems/run names the compiler of the system that it made.
+    return f"GCC {named.group(1)}" if named else f"GCC {plain.split()[-1]}" if plain else ""
+
+
+def load(table):
+    """Load averages, the first that of the last minute, before the run, or at its end where no other is known."""
+    for name in ("load at start", "load average before"):
+        if name in table.head:
+            return table.head[name]
+    said = re.search(r"load ([\d.]+)", table.head.get("machine", ""))
+    return said.group(1) if said else ""
+
+
+def processors(table):
+    said = re.search(r"\((\d+) available\)|(\d+) (?:cores|processors)", machine(table))
+    return int(said.group(1) or said.group(2)) if said else 1
+
+
+def says_busy(table):
+    """A run on a busy machine says so in the first line of its file."""
+    return table.first_comment.startswith("busy machine")
+
+
+def _was_busy(table):
+    before = next((table.head[n] for n in ("load at start", "load average before") if n in table.head), "")
+    return bool(before) and float(before.split()[0]) > BUSY_LOAD_PER_PROCESSOR * processors(table)
+
+
+def faults(table, is_known_revision):
+    """is_known_revision(name) -> True, False, or None where git cannot tell."""
+    found = set()
+    revisions = {row["revision"] for row in table.rows} if "revision" in table.columns else {table.head.get("revision", "")}
+    if not machine(table):
+        found.add("no machine")
+    if not compiler(table):
+        found.add("no compiler")
+    if not load(table) and "load" not in table.columns:
+        found.add("no load")
+    for revision in revisions:
+        if not revision:
+            found.add("no revision")
+        if revision.endswith("-dirty"):
+            found.add("revision is dirty")
+        if revision and is_known_revision(revision.removesuffix("-dirty")) is False:
+            found.add("revision is not in the history")
+    if _was_busy(table) and not says_busy(table):
+        found.add("busy machine")
+    return found
+
+
+class History:
+    """Asks git; every answer is None where there is no git, no repository or only a shallow one."""
+
+    def __init__(self, root):
+        self.root = root
+        answer = self._git("rev-parse", "--is-shallow-repository")
+        self.is_there = answer is not None and answer.returncode == 0 and answer.stdout.strip() == "false"
+
+    def _git(self, *arguments):
+        try:
+            return subprocess.run(["git", "-C", str(self.root), *arguments], capture_output=True, text=True)
+        except OSError:
+            return None
+
+    def has(self, revision):
+        """True if it is HEAD or one of its ancestors."""
+        if not self.is_there:
+            return None
+        if not re.fullmatch(r"[0-9a-f]{7,40}", revision):
+            return False
+        return self._git("merge-base", "--is-ancestor", revision, "HEAD").returncode == 0
+
+
+def problems(results, history, known=None):
+    """Lines for what the list of known faults and the files disagree about; empty if all is well."""
+    known = KNOWN if known is None else known
+    lines = []
+    for file in result_files(results):
+        found, expected = faults(results.table(file), history.has), known.get(file, set())
+        lines += [f"{file}: {fault}; measure it anew with resources/scripts/measure at a clean committed revision"
+                  for fault in sorted(found - expected)]
+        mended = expected - found
+        if not history.is_there:
+            mended.discard("revision is not in the history")
+        lines += [f"{file}: no longer so: {fault}; take it off KNOWN in resources/scripts/figure_sources/provenance.py"
+                  for fault in sorted(mended)]
+    for file in sorted(set(known) - set(result_files(results))):
+        lines.append(f"{file}: there is no such file; take it off KNOWN in resources/scripts/figure_sources/provenance.py")
+    return lines

@@ -1,0 +1,228 @@
+#!/usr/bin/env python3
+"""Tests of resources/scripts/figures on small made-up result files and pages; needs Python 3 alone."""
+
+import contextlib
+import io
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "resources" / "scripts" / "figure_sources"))
+import catalogue  # noqa: E402
+import common  # noqa: E402
+import markers  # noqa: E402
+import numbers_text  # noqa: E402
+import provenance  # noqa: E402
+from results import FigureError, Results, Table  # noqa: E402
+
+HEAD = """# processor: AMD EPYC (2 available)
+# compiler: GCC-compatible 12.2.0
+# revision: 0123456789ab
+# load at start: 0.10 0.20 0.30
+"""
+TIMES = HEAD + "pair,method,p50_us\nball-bowl,cold,12.34\nball-bowl,tracked,1.5\n"
+OF_TIMES = "<!-- figures: csv tests/bench/results/times.csv: method, p50_us | pair=ball-bowl -->"
+MADE = "| method | p50_us |\n| --- | ---: |\n| cold | 12 |\n| tracked | 1.5 |"
+
+
+def page(inside, mark=OF_TIMES):
+    return f"# Page\n\n{mark}\n{inside}\n<!-- end -->\n\nText.\n"
+
+
+class Folder(unittest.TestCase):
+    """A tree with one result file and one page; not in a repository."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        self.csv = self.root / "tests" / "bench" / "results" / "times.csv"
+        self.csv.parent.mkdir(parents=True)
+        self.csv.write_text(TIMES)
+        self.page = self.root / "PAGE.md"
+        self.page.write_text(page(MADE))
+
+    def run_script(self, *arguments):
+        command = [sys.executable, str(ROOT / "resources" / "scripts" / "figures"), "--root", str(self.root), *arguments]
+        return subprocess.run(command, capture_output=True, text=True)
+
+    def errors(self, *arguments):
+        """Lines of stderr about the page, without those about files that only the real tree has."""
+        return [line for line in self.run_script(*arguments).stderr.splitlines() if "PAGE.md" in line]
+
+
+class Check(Folder):
+    def test_finds_nothing_where_the_page_is_as_the_file_says(self):
+        self.assertEqual(self.errors("--check"), [])
+
+    def test_finds_a_stale_number_and_says_where(self):
+        self.page.write_text(page(MADE.replace("12", "13")))
+        self.assertEqual(len(self.errors("--check")), 1)
+        self.assertIn("PAGE.md:3:", self.errors("--check")[0])
+        self.assertEqual(self.run_script("--check").returncode, 1)
+        self.assertIn("13", self.page.read_text(), "a check changes nothing")
+
+    def test_a_run_mends_a_stale_number_and_leaves_the_rest_alone(self):
+        self.page.write_text(page("old"))
+        self.run_script()
+        self.assertEqual(self.page.read_text(), page(MADE))
+
+    def test_a_result_file_that_is_not_there_is_an_error_with_the_line_of_the_page(self):
+        self.csv.unlink()
+        self.assertRegex(self.errors("--check")[0], r"PAGE\.md:3: .*times\.csv: it cannot be read")
+
+    def test_a_column_that_is_not_there_is_an_error_that_names_those_that_are(self):
+        self.csv.write_text(TIMES.replace("p50_us", "p51_us"))
+        self.assertRegex(self.errors("--check")[0], r'no column "p50_us"; it has pair, method, p51_us')
+
+    def test_a_row_that_is_not_there_is_an_error(self):
+        self.csv.write_text(TIMES.replace("ball-bowl", "box-floor"))
+        self.assertRegex(self.errors("--check")[0], r'no row with pair "ball-bowl"')
+
+    def test_an_error_leaves_the_page_as_it_was(self):
+        self.page.write_text(page("old", "<!-- figures: nothing has this name -->"))
+        self.assertRegex(self.errors()[0], "there is no such figure")
+        self.assertIn("old", self.page.read_text())
+
+
+class Markers(unittest.TestCase):
+    def rewrite(self, text, made="new"):
+        return markers.rewrite("P.md", text, lambda name: made)
+
+    def test_within_a_sentence_nothing_but_the_figure_changes(self):
+        text, names, stale = self.rewrite("It takes <!-- figures: t -->5 us<!-- end -->, at most.\n", "7 us")
+        self.assertEqual(text, "It takes <!-- figures: t -->7 us<!-- end -->, at most.\n")
+        self.assertEqual((names, stale), (["t"], [(1, "t")]))
+
+    def test_a_place_without_end_is_an_error_that_says_where(self):
+        for text in ("a\n<!-- figures: t -->\nold\n", "a\n<!-- figures: t -->\n<!-- figures: u -->\n<!-- end -->\n"):
+            with self.assertRaisesRegex(FigureError, r"P\.md:2: .*has no"):
+                self.rewrite(text)
+
+    def test_an_end_without_beginning_is_an_error(self):
+        with self.assertRaisesRegex(FigureError, r"P\.md:3: .*closes nothing"):
+            self.rewrite("<!-- figures: t -->\n<!-- end -->\n<!-- end -->\n")
+
+    def test_a_marker_that_is_misspelt_is_an_error(self):
+        for wrong in ("<!-- figure: t -->", "<!--figures: t-->", "<!-- End -->"):
+            with self.assertRaisesRegex(FigureError, r"P\.md:2: .*is no marker"):
+                self.rewrite(f"a\n{wrong}\n")
+
+    def test_a_figure_within_a_line_does_not_begin_it_for_markdown_takes_that_for_html(self):
+        with self.assertRaisesRegex(FigureError, "begins with a comment"):
+            self.rewrite("  <!-- figures: t -->5<!-- end --> us\n")
+
+
+class Tables(unittest.TestCase):
+    def test_two_rows_that_fit_are_an_error_where_one_is_asked_for(self):
+        with self.assertRaisesRegex(FigureError, "2 rows fit"):
+            Table("t.csv", TIMES).number("p50_us", pair="ball-bowl")
+
+    def test_a_text_where_a_number_belongs_is_an_error(self):
+        with self.assertRaisesRegex(FigureError, '"cold" in column "method" is not a number'):
+            Table("t.csv", TIMES).number("method", p50_us="12.34")
+
+    def test_the_worst_of_rows_is_taken_column_by_column(self):
+        table = Table("t.csv", "scene,p50,max\na,1,9\nb,3,4\n")
+        self.assertEqual(common.worst(table, ("p50", "max"), [{"scene": "a"}, {"scene": "b"}]), [3, 9])
+
+    def test_machines_of_one_name_are_told_apart_by_their_instructions(self):
+        heads = ["# vector instructions: avx512f avx512_vp2intersect\na\n1\n", "# vector instructions: avx512f\na\n1\n",
+                 "# vector instructions: avx2\na\n1\n", "a\n1\n"]
+        self.assertEqual([common.machine_letter(Table("t.csv", head)) for head in heads], ["A", "B", "D", "C"])
+
+    def test_a_picture_that_does_not_say_what_it_drew_is_an_error(self):
+        rows = "figure,remark\nlarge,82500 of 9680000 triangles a picture\nframe,8509 triangles a picture\nother,none\n"
+        table = Table("w.csv", rows)
+        self.assertEqual(common.drawn(table, figure="large"), (82500, 9680000))
+        self.assertEqual(common.drawn(table, figure="frame"), (8509, None))
+        with self.assertRaisesRegex(FigureError, "does not say how many triangles"):
+            common.drawn(table, figure="other")
+
+
+class Numbers(unittest.TestCase):
+    def test_are_written_with_two_digits_below_a_hundred(self):
+        written = {0: "0", 0.00123: "0.0012", 0.123: "0.12", 0.5: "0.5", 1.25: "1.2", 9.97: "10", 42.4: "42", 1234.5: "1,234"}
+        self.assertEqual({value: numbers_text.plain(value) for value in written}, written)
+
+    def test_times_carry_the_unit_that_reads_best(self):
+        written = {5.25: "5.2 us", 999.4: "999 us", 1500: "1.5 ms", 2.9e6: "2.9 s"}
+        self.assertEqual({value: numbers_text.time(value) for value in written}, written)
+
+    def test_a_verdict_names_each_goal_that_is_missed(self):
+        self.assertEqual(numbers_text.verdict([("p50", 90, 100), ("p99", 400, 400)]), "met")
+        self.assertEqual(numbers_text.verdict([("p50", 101, 100), ("p99", 1, 400)]), "**missed** at p50, goal 100 us")
+
+
+class History:
+    """Git that knows some revisions."""
+
+    def __init__(self, *known, is_there=True):
+        self.known, self.is_there = known, is_there
+
+    def has(self, revision):
+        return revision in self.known if self.is_there else None
+
+
+class Provenance(Folder):
+    def problems(self, history=History("0123456789ab"), known=None):
+        return provenance.problems(Results(self.root), history, known or {})
+
+    def test_a_clean_file_has_none(self):
+        self.assertEqual(self.problems(), [])
+
+    def test_a_revision_that_is_not_in_the_history_is_one_unless_git_is_missing(self):
+        self.assertRegex(self.problems(History())[0], r"times\.csv: revision is not in the history")
+        self.assertEqual(self.problems(History(is_there=False)), [])
+
+    def test_a_dirty_revision_is_one_without_git_too(self):
+        self.csv.write_text(TIMES.replace("0123456789ab", "0123456789ab-dirty"))
+        self.assertRegex(self.problems(History(is_there=False))[0], "revision is dirty")
+
+    def test_each_line_that_is_missing_of_the_head_is_one(self):
+        for name, fault in (("processor", "no machine"), ("compiler", "no compiler"), ("revision", "no revision"),
+                            ("load at start", "no load")):
+            self.csv.write_text("".join(line for line in TIMES.splitlines(True) if not line.startswith(f"# {name}:")))
+            self.assertTrue(any(fault in line for line in self.problems()), fault)
+
+    def test_a_busy_machine_is_one_unless_the_first_line_says_so(self):
+        busy = TIMES.replace("0.10 0.20", "8.50 0.20")
+        self.csv.write_text(busy)
+        self.assertRegex(self.problems()[0], "busy machine")
+        self.csv.write_text("# busy machine: other programs kept 1.5 of 2 processors at work\n" + busy)
+        self.assertEqual(self.problems(), [])
+
+    def test_a_known_fault_is_let_pass_and_has_to_go_once_it_is_mended(self):
+        file = "tests/bench/results/times.csv"
+        known = {file: {"revision is not in the history"}}
+        self.assertEqual(self.problems(History(), known), [])
+        self.assertRegex(self.problems(known=known)[0], "no longer so")
+        self.csv.unlink()
+        self.assertRegex(self.problems(known=known)[0], "there is no such file")
+
+    def test_revisions_that_stand_in_the_rows_are_looked_up_too(self):
+        rows = HEAD.replace("# revision: 0123456789ab\n", "") + "scene,load,revision\na,0.1,0123456789ab\nb,0.1,fedcba987654\n"
+        self.csv.write_text(rows)
+        self.assertEqual(len(self.problems()), 1)
+        self.assertRegex(self.problems()[0], "not in the history")
+
+    def test_the_list_of_what_cannot_be_repeated_names_each_file(self):
+        out = self.run_script("--provenance")
+        self.assertEqual(out.returncode, 0)
+        self.assertIn("tests/bench/results/times.csv: 0123456789ab", out.stdout)
+
+
+class RealTree(unittest.TestCase):
+    def test_every_figure_can_be_made_and_none_is_empty(self):
+        results = Results(ROOT)
+        for name in catalogue.FIGURES:
+            with self.subTest(name), contextlib.redirect_stdout(io.StringIO()):
+                self.assertTrue(catalogue.make(results, name).strip())
+
+
+if __name__ == "__main__":
+    unittest.main()
