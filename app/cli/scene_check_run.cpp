@@ -156,7 +156,8 @@ void runSceneCheck(const std::string& sceneFile, const SceneCheckOptions& option
   const bool isStdoutTaken = options.json == kStdout || options.csv == kStdout;
   if (!options.json.empty()) writeTo(options.json, sceneCheckJson(scene, *check, compared));
   if (!options.csv.empty()) writeTo(options.csv, sceneCheckCsv(scene, *check, compared));
-  if (!isStdoutTaken) print(sceneCheckTable(scene, *check, compared) + sceneCheckSummary(*check));
+  if (!isStdoutTaken)
+    print(sceneCheckTable(scene, *check, compared) + sceneCheckSummary(*check) + sceneCheckChanges(compared));
   printCacheWarnings();
   if (check->forbidden() == 0) return;
   flushOutput();

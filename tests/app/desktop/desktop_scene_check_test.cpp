@@ -175,13 +175,13 @@ void DesktopSceneCheckTest::theNextCheckSaysWhatHasChanged() {
   const PartId plug = f.d.partId("plug");
   f.d.session().movePart(plug, {{1, 0, 0, 0}, {-0.001, 0.0, 0.0}});
   f.check();
-  QCOMPARE(f.of("fixed", "plug", PairFindingsModel::Change), QStringLiteral("worse"));
+  QCOMPARE(f.of("fixed", "plug", PairFindingsModel::Change), QStringLiteral("worse, was 5.00 mm"));
   QCOMPARE(f.of("fixed", "plug", PairFindingsModel::Depth), QStringLiteral("6.00 mm"));
   QCOMPARE(f.of("fixed", "moving", PairFindingsModel::Change), QStringLiteral("same"));
   // 75 mm from the first, and farther from the other.
   f.d.session().movePart(plug, {{1, 0, 0, 0}, {0.08, 0.0, 0.0}});
   f.check();
-  QCOMPARE(f.of("fixed", "plug", PairFindingsModel::Change), QStringLiteral("gone"));
+  QCOMPARE(f.of("fixed", "plug", PairFindingsModel::Change), QStringLiteral("gone, was clash"));
   QCOMPARE(f.of("fixed", "plug", PairFindingsModel::State), QStringLiteral("fixed"));
   QCOMPARE(f.summary(), QStringLiteral("no clash, 1 near, 2 clear"));
 }

@@ -160,6 +160,20 @@ void SceneCheckPanel::setUpFields() {
     sorted_->setVerdict(static_cast<VerdictFilter>(verdicts_->currentData().toInt()));
     showState();
   });
+  changed_ = new QComboBox(this);
+  changed_->setObjectName(QStringLiteral("sceneCheckChanges"));
+  changed_->setAccessibleName(tr("Changes listed"));
+  changed_->setToolTip(tr("List only findings that differ so from the last check"));
+  const std::pair<QString, ChangeFilter> changes[] = {{tr("Old and new"), ChangeFilter::All},
+                                                      {tr("New since"), ChangeFilter::New},
+                                                      {tr("Changed since"), ChangeFilter::Changed},
+                                                      {tr("Gone since"), ChangeFilter::Gone}};
+  for (const auto& [name, change] : changes)
+    changed_->addItem(name, static_cast<int>(change));
+  connect(changed_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
+    sorted_->setChange(static_cast<ChangeFilter>(changed_->currentData().toInt()));
+    showState();
+  });
   states_ = new QComboBox(this);
   states_->setObjectName(QStringLiteral("sceneCheckStates"));
   states_->setAccessibleName(tr("States listed"));
@@ -269,6 +283,7 @@ void SceneCheckPanel::setUpLayout() {
   auto* filters = new QHBoxLayout;
   filters->addWidget(text_, 1);
   filters->addWidget(verdicts_);
+  filters->addWidget(changed_);
   filters->addWidget(states_);
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(note_, 1);
