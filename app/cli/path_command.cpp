@@ -24,7 +24,6 @@
 #include "core/path/path_file.h"
 #include "core/path/path_thinning.h"
 #include "core/path/swept_volume.h"
-#include "core/report/mesh_export.h"
 #include "core/report/scene_export.h"
 #include "core/scene/scene_file.h"
 #include "core/servo/motion_reader.h"
@@ -105,19 +104,6 @@ AssemblyPath pathOfInput(const PathOptions& options, const Scene& scene) {
   return options.from || options.to ? trimmed(path, from, to) : path;
 }
 
-/// Writes the swept volume as a mesh of one part; returns its number of triangles.
-std::size_t exportSwept(const PathOptions& options, const Scene& scene, const AssemblyPath& path,
-                        double resolution) {
-  const auto geometry = std::make_shared<PartGeometry>();
-  geometry->mesh = sweptVolume(scene, path, resolution);
-  Part part;
-  part.name = "Swept volume";
-  part.geometry = geometry;
-  const std::vector<Scene::PartPtr> parts{std::make_shared<const Part>(std::move(part))};
-  exportMesh(parts, *sweptKindOf(options), parseUnit(options.unit), options.swept);
-  return geometry->mesh.triangles().size();
-}
-
 void runPath(const PathOptions& options) {
   checkPathOptions(options);
   const Scene scene = readSceneFile(options.scene);
@@ -162,7 +148,8 @@ void runPath(const PathOptions& options) {
   }
   if (!options.swept.empty()) {
     const double resolution = options.resolution ? *options.resolution : defaultSweptResolution(scene, path);
-    summary["swept_triangles"] = exportSwept(options, scene, path, resolution);
+    summary["swept_triangles"] =
+        writeSweptVolume(scene, path, resolution, parseUnit(options.unit), options.swept);
     summary["resolution"] = resolution;
   }
   printCacheWarnings();

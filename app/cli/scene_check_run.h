@@ -2,7 +2,8 @@
 
 #include <memory>
 #include <string>
-#include <vector>
+
+#include "app/cli/rule_options.h"
 
 namespace CLI {
 class App;
@@ -14,15 +15,15 @@ namespace nearfit::cli {
 /// Options of `clearance --all`.
 struct SceneCheckOptions {
   std::string threshold, json, csv;
-  std::vector<std::string> leaveOut, touching, pressFit;
-  bool leaveOutGroups = false;
+  RuleOptions rules;
+  bool isSaved = false;  ///< The findings are kept with the scene.
 };
 
 /// Adds the options; each needs `all`.
 void addSceneCheckOptions(CLI::App& command, CLI::Option& all,
                           const std::shared_ptr<SceneCheckOptions>& options);
 
-/// Checks all pairs of a scene's visible parts and prints what it finds. Throws NegativeVerdict if the parts clash and no
+/// Checks all pairs of a scene's visible parts and prints what it finds; keeps it in the scene file if asked to. Throws NegativeVerdict if the parts clash and no
 /// rule allows it, UsageError, FileError, Cancelled (after an interrupt).
 void runSceneCheck(const std::string& scene, const SceneCheckOptions& options);
 

@@ -19,6 +19,7 @@
 #include "app/cli/scene_joints_command.h"
 #include "app/cli/scene_part.h"
 #include "app/cli/scene_refine_command.h"
+#include "app/cli/scene_rule_command.h"
 #include "core/base/error.h"
 #include "core/scene/document_load.h"
 #include "core/scene/document_parts.h"
@@ -235,6 +236,7 @@ void addSceneCommand(CLI::App& program) {
   addSceneKeep(*scene);
   addSceneRelease(*scene);
   addSceneRefine(*scene);
+  addSceneRule(*scene);
 }
 
 }  // namespace nearfit::cli

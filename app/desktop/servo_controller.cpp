@@ -77,8 +77,7 @@ std::unique_ptr<ServoScene> ServoController::servoScene() const {
   const Scene& scene = session_.scene();
   auto made = std::make_unique<ServoScene>(*makeServoScene(scene));
   if (!guidance_ || scene.get(made->moving.id).name != guidance_->parts.front()) return made;
-  std::vector<glm::dvec3> way = wayOf(*guidance_, made->centreInPart);
-  // A part that only turns about its centre of mass is not guided.
+  std::vector<GuidancePose> way = wayOf(*guidance_, made->centreInPart);
   if (way.size() > 1)
     made->guidance = std::make_shared<const GuidancePath>(std::move(way), GuidanceSettings{});
   return made;

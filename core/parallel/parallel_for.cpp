@@ -13,7 +13,8 @@
 namespace nearfit {
 namespace {
 
-/// Helper threads that the process may still start, besides the threads that call parallelFor().
+/// Helper threads that the process may still start, besides the threads that call parallelFor(). Below zero: so many of those
+/// that run are too many, since processors were reserved after they had started.
 std::atomic<int>& freeHelpers() {
   static std::atomic<int> count{static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) - 1};
   return count;
@@ -64,8 +65,11 @@ class ParallelLoop {
       if (!permit) return;
       try {
         helpers_.emplace_back([this, held = std::move(*permit)] {
-          for (std::size_t i = next_++; i < count_; i = next_++)
+          for (std::size_t i = next_++; i < count_; i = next_++) {
             attempt(i);
+            // Several may leave where one is too many: the caller hires again.
+            if (freeHelpers().load(std::memory_order_relaxed) < 0) return;
+          }
         });
       } catch (const std::system_error&) {
         return;  // No thread available; this thread does the work.
@@ -92,6 +96,14 @@ class ParallelLoop {
 };
 
 }  // namespace
+
+ReservedProcessor::ReservedProcessor() noexcept {
+  --freeHelpers();
+}
+
+ReservedProcessor::~ReservedProcessor() {
+  ++freeHelpers();
+}
 
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& work) {
   ParallelLoop(count, work).run();

@@ -137,15 +137,17 @@ double placeAt(const AssemblyPath& path, double time) noexcept {
   return static_cast<double>(after - path.poses.begin() - 1) + (time - from.time) / (to.time - from.time);
 }
 
-std::vector<glm::dvec3> wayOf(const AssemblyPath& path, const glm::dvec3& point) {
+std::vector<GuidancePose> wayOf(const AssemblyPath& path, const glm::dvec3& point) {
   // The sagitta of an arc of this angle [rad] is a 3200th of its radius.
   constexpr double kMaxPieceTurn = 0.05;
-  // Nearer places differ by rounding alone.
-  constexpr double kSamePoint = 1e-9;
-  std::vector<glm::dvec3> way;
+  // Nearer places [m], and rotations by less [rad], differ by rounding alone.
+  constexpr double kSamePoint = 1e-9, kSameTurn = 1e-7;
+  std::vector<GuidancePose> way;
   const auto add = [&](const RigidTransform& pose) {
-    const glm::dvec3 at = pose.applyToPoint(point);
-    if (way.empty() || glm::distance(way.back(), at) > kSamePoint) way.push_back(at);
+    const GuidancePose at{pose.applyToPoint(point), pose.rotation};
+    const bool isAnother = way.empty() || glm::distance(way.back().place, at.place) > kSamePoint ||
+                           turnBetween({way.back().rotation, {}}, {at.rotation, {}}) > kSameTurn;
+    if (isAnother) way.push_back(at);
   };
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     const RigidTransform& to = path.poses[i].worldFromLead;

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/haptics/guidance.h"
 #include "core/math/rigid_transform.h"
 #include "core/scene/scene.h"
 #include "core/servo/motion_recording.h"
@@ -64,11 +65,11 @@ double timeAt(const AssemblyPath& path, double place) noexcept;
 /// Place at a time [s], clamped to the path. O(log n).
 double placeAt(const AssemblyPath& path, double time) noexcept;
 
-/// Way of a point of what moves, as a polyline in the world [m]: its places at the poses, and between them as often as the
-/// turn takes to be straight to within 1/3000 of the point's distance from the centre. Points that are the same follow
-/// each other once; a point that does not move at all gives one.
+/// Way of a point of what moves and of its rotation, as a polyline in the world: where they are at the poses, and between them
+/// as often as the turn takes to be straight to within 1/3000 of the point's distance from the centre. Poses that are the
+/// same follow each other once; a path on which nothing moves gives one.
 /// @param point  In the frame of the part that leads [m].
-std::vector<glm::dvec3> wayOf(const AssemblyPath& path, const glm::dvec3& point);
+std::vector<GuidancePose> wayOf(const AssemblyPath& path, const glm::dvec3& point);
 
 /// Upper bound on the distance between where two poses have a point of a body [m].
 /// @param radius  Of the body about the centre [m].

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -19,6 +21,7 @@
 #include "core/parallel/parallel_for.h"
 #include "core/parallel/shared_progress.h"
 #include "core/path/path_bodies.h"
+#include "core/report/scene_export.h"
 
 namespace nearfit {
 namespace {
@@ -370,6 +373,23 @@ TriangleMesh sweptVolume(const Scene& scene, const AssemblyPath& path, double re
   lattice.spread();
   lattice.fill();
   return lattice.surface(stageOf(progress, kSampled, 1.0));
+}
+
+std::size_t writeSweptVolume(const Scene& scene, const AssemblyPath& path, double resolution,
+                             double metresPerUnit, const std::filesystem::path& file,
+                             const ProgressCallback& progress) {
+  const std::optional<ExportKind> kind = exportKindOf(file);
+  const std::optional<MeshFileKind> mesh = kind ? meshKindOf(*kind) : std::nullopt;
+  if (!mesh)
+    throw UsageError(file.string(), "its suffix is not that of a mesh file", "use .stl, .obj or .ply");
+  const auto geometry = std::make_shared<PartGeometry>();
+  geometry->mesh = sweptVolume(scene, path, resolution, progress);
+  Part part;
+  part.name = "Swept volume";
+  part.geometry = geometry;
+  const std::vector<Scene::PartPtr> parts{std::make_shared<const Part>(std::move(part))};
+  exportMesh(parts, *mesh, metresPerUnit, file);
+  return geometry->mesh.triangles().size();
 }
 
 }  // namespace nearfit

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
+
 #include "core/base/progress.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/path/assembly_path.h"
@@ -29,5 +32,13 @@ double defaultSweptResolution(const Scene& scene, const AssemblyPath& path);
 /// pathBodies(); Cancelled.
 TriangleMesh sweptVolume(const Scene& scene, const AssemblyPath& path, double resolution,
                          const ProgressCallback& progress = {});
+
+/// Writes the swept volume as a mesh of one part named "Swept volume", atomically; returns its number of triangles.
+/// @param metresPerUnit  Unit of the numbers in the file [m].
+/// @param file           Its suffix chooses the format: .stl (binary), .obj or .ply, in any case.
+/// Throws UsageError if the suffix is another, or the unit invalid; as sweptVolume() and exportMesh(). Blocking.
+std::size_t writeSweptVolume(const Scene& scene, const AssemblyPath& path, double resolution,
+                             double metresPerUnit, const std::filesystem::path& file,
+                             const ProgressCallback& progress = {});
 
 }  // namespace nearfit

@@ -87,15 +87,22 @@ CheckJson pairJson(const Scene& scene, const PartPair& pair) {
   return {{"part", scene.get(pair.part).name}, {"other", scene.get(pair.other).name}};
 }
 
+CheckJson recordJson(const PairRecord& record) {
+  return {{"verdict", wordOf(record.verdict)},
+          {"distance", record.distance},
+          {"depth", lengthJson(record.depth)}};
+}
+
 CheckJson findingJson(const Scene& scene, const ComparedFinding& compared) {
   const PairFinding& finding = *compared.now;
   CheckJson json = pairJson(scene, finding.pair);
   json["verdict"] = wordOf(finding.verdict);
   json["allowed"] = !finding.isForbidden();
   json["rule"] = finding.allowedBy ? CheckJson(*finding.allowedBy) : CheckJson();
-  json["state"] = wordOf(compared.state);
+  json["state"] = stateWord(compared.state, compared.reason);
   json["reason"] = compared.reason;
   json["change"] = wordOf(compared.change);
+  json["before"] = compared.before ? recordJson(*compared.before) : CheckJson();
   json["distance"] = finding.distance;
   json["points"] = {{"part", placeJson(finding.partPoint)}, {"other", placeJson(finding.otherPoint)}};
   json["everyMinimum"] = finding.isEveryMinimum;
@@ -140,7 +147,7 @@ std::string csvRow(const Scene& scene, const SceneCheck& check, const ComparedFi
   add(wordOf(now != nullptr ? now->verdict : PairVerdict::Clear));
   add(now == nullptr || !now->isForbidden() ? "1" : "0");
   add(now != nullptr ? csvField(ruleText(check, *now)) : "");
-  add(wordOf(compared.state));
+  add(stateWord(compared.state, compared.reason));
   add(wordOf(compared.change));
   add(csvField(compared.reason));
   addNumber(now != nullptr ? std::optional(now->distance) : std::nullopt);
@@ -157,6 +164,10 @@ std::string csvRow(const Scene& scene, const SceneCheck& check, const ComparedFi
   addNumber(clash != nullptr ? std::optional(lengthOfCurves(*clash)) : std::nullopt);
   const bool hasFit = clash != nullptr && clash->interference.has_value();
   addNumber(hasFit ? std::optional(clash->interference->most) : std::nullopt);
+  const std::optional<PairRecord>& before = compared.before;
+  add(before ? wordOf(before->verdict) : "");
+  addNumber(before ? std::optional(before->distance) : std::nullopt);
+  addNumber(before ? before->depth : std::nullopt);
   return row + "\n";
 }
 
@@ -186,9 +197,9 @@ std::string sceneCheckTable(const Scene& scene, const SceneCheck& check,
     const bool hasVolume = now != nullptr && now->clash && now->clash->volume;
     fmt::format_to(
         std::back_inserter(text), "{:<10}{:<11}{:<8}{:>13}{:>14}{:>14}  {} | {}{}\n",
-        wordOf(now != nullptr ? now->verdict : PairVerdict::Clear), wordOf(row->state), wordOf(row->change),
-        now != nullptr ? fmt::format("{:.4g}", now->distance) : "", now != nullptr ? depthText(*now) : "",
-        hasVolume ? fmt::format("{:.4g}", *now->clash->volume) : "",
+        wordOf(now != nullptr ? now->verdict : PairVerdict::Clear), stateWord(row->state, row->reason),
+        wordOf(row->change), now != nullptr ? fmt::format("{:.4g}", now->distance) : "",
+        now != nullptr ? depthText(*now) : "", hasVolume ? fmt::format("{:.4g}", *now->clash->volume) : "",
         printableText(scene.get(row->pair.part).name), printableText(scene.get(row->pair.other).name),
         rule.empty() ? "" : fmt::format("  (allowed: {})", rule));
   }
@@ -204,12 +215,22 @@ std::string sceneCheckSummary(const SceneCheck& check) {
       check.count(PairVerdict::Contained), check.forbidden());
 }
 
+std::string sceneCheckChanges(const std::vector<ComparedFinding>& compared) {
+  if (std::ranges::none_of(compared,
+                           [](const ComparedFinding& finding) { return finding.before.has_value(); }))
+    return "";
+  const FindingChanges changes = changesIn(compared);
+  return fmt::format("since the last check: {} new, {} worse, {} better, {} gone\n", changes.added,
+                     changes.worse, changes.better, changes.gone);
+}
+
 std::string sceneCheckCsv(const Scene& scene, const SceneCheck& check,
                           const std::vector<ComparedFinding>& compared) {
   std::string text =
       "part,other,verdict,allowed,rule,state,change,reason,distance [m],part_x [m],part_y [m],part_z [m],"
       "other_x [m],other_y [m],other_z [m],minima,every_minimum,depth [m],depth_exact,free_x,free_y,free_z,"
-      "volume [m^3],volume_problem,curves [m],interference [m]\n";
+      "volume [m^3],volume_problem,curves [m],interference [m],before_verdict,before_distance "
+      "[m],before_depth [m]\n";
   for (const ComparedFinding* row : findingsBySeverity(compared))
     text += csvRow(scene, check, *row);
   return text;

@@ -21,10 +21,14 @@ std::string sceneCheckTable(const Scene& scene, const SceneCheck& check,
 /// One line: pairs checked, left out, and by verdict; and how many of the clashes no rule allows.
 std::string sceneCheckSummary(const SceneCheck& check);
 
+/// One line: findings that are new, worse, better and gone beside the last check; "" if there was none before.
+std::string sceneCheckChanges(const std::vector<ComparedFinding>& compared);
+
 /// The same rows as CSV (UTF-8): `part`, `other`, `verdict`, `allowed` (0 or 1), `rule` (in words), `state`, `change`,
 /// `reason`, `distance [m]`, the points `part_x [m]` ... `other_z [m]`, `minima`, `every_minimum` (0 or 1), `depth [m]`,
 /// `depth_exact` (0 or 1), `free_x` ... `free_z` (direction of the translation of the first part that frees it),
-/// `volume [m^3]`, `volume_problem`, `curves [m]` (length), `interference [m]` (at most). Cells without a value are empty.
+/// `volume [m^3]`, `volume_problem`, `curves [m]` (length), `interference [m]` (at most), and what the last check found:
+/// `before_verdict`, `before_distance [m]`, `before_depth [m]`. Cells without a value are empty.
 std::string sceneCheckCsv(const Scene& scene, const SceneCheck& check,
                           const std::vector<ComparedFinding>& compared);
 

@@ -49,16 +49,16 @@ struct ServoSnapshot {
   static constexpr std::size_t kMaxLmds = 512;
   static constexpr std::size_t kMaxContacts = 16, kMaxOverlapping = 8;
 
-  std::uint64_t tick = 0;    ///< Ticks run, including this one; 0 before the first.
-  double time = 0.0;         ///< Since the servo started [s].
-  RigidTransform handle;     ///< worldFromHandle: where the device wants the part.
-  RigidTransform proxy;      ///< worldFromPart: where the part is; equal to `handle` with springs.
-  Wrench wrench;             ///< On the handle, about the centre of mass, as rendered: within all limits.
-  Wrench unclampedWrench;    ///< The same before limits, ramps and fading.
-  glm::dvec3 guidance{0.0};  ///< Part of the unclamped force that pulls to the guidance's path [N].
-  Wrench deviceWrench;       ///< `wrench` as the device is to render it, in the device's frame.
-  glm::dvec3 centre{0.0};    ///< The part's centre of mass [m].
-  double distance = 0.0;     ///< Min distance [m]; infinity if nothing is within the cutoff.
+  std::uint64_t tick = 0;  ///< Ticks run, including this one; 0 before the first.
+  double time = 0.0;       ///< Since the servo started [s].
+  RigidTransform handle;   ///< worldFromHandle: where the device wants the part.
+  RigidTransform proxy;    ///< worldFromPart: where the part is; equal to `handle` with springs.
+  Wrench wrench;           ///< On the handle, about the centre of mass, as rendered: within all limits.
+  Wrench unclampedWrench;  ///< The same before limits, ramps and fading.
+  Wrench guidance;         ///< Part of the unclamped wrench that pulls to the guidance's path.
+  Wrench deviceWrench;     ///< `wrench` as the device is to render it, in the device's frame.
+  glm::dvec3 centre{0.0};  ///< The part's centre of mass [m].
+  double distance = 0.0;   ///< Min distance [m]; infinity if nothing is within the cutoff.
   double queryTime = 0.0, tickTime = 0.0;  ///< Time of the queries, and of the whole tick [s].
   /// Pairs of nodes and of features visited, listed and merged. Bounds the tick even when a busy machine
   /// stretches its time.

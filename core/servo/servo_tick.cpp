@@ -51,7 +51,7 @@ std::uint64_t workOfMovingOn(double period, bool isLongBehind, bool isAmongThous
 
 void clearOutputs(ServoSnapshot& snapshot) noexcept {
   snapshot.wrench = snapshot.unclampedWrench = snapshot.deviceWrench = Wrench{};
-  snapshot.guidance = glm::dvec3(0.0);
+  snapshot.guidance = Wrench{};
   snapshot.distance = std::numeric_limits<double>::infinity();
   snapshot.queryTime = snapshot.proxyTime = snapshot.wrenchTime = 0.0;
   snapshot.work = 0;
@@ -124,7 +124,8 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
     if (isFelt != conditioner_.isEngaged()) isFelt ? conditioner_.engage() : conditioner_.disengage();
     Wrench wrench = settings.mode == HapticMode::Proxy ? feelProxy(tick) : feelSprings(tick);
     wrench.force += pull_.force;
-    snapshot.guidance = pull_.force;
+    wrench.torque += pull_.torque;
+    snapshot.guidance = {pull_.force, pull_.torque};
     const Wrench damping = passivity_.damping(limits, period);
     wrench.force += damping.force;
     wrench.torque += damping.torque;
@@ -190,7 +191,8 @@ GuidancePull ServoTick::pullOfGuidance(const Tick& tick) noexcept {
   const GuidancePath* path = tick.scene.guidance.get();
   if (path == nullptr) return {};
   const GuidanceSettings settings = boundedGuidance(path->settings(), tick.limits, periodMeter_.heldPeriod());
-  return guidance_.follow(*path, settings, handle_.pose.applyToPoint(tick.scene.centreInPart));
+  return guidance_.follow(*path, settings,
+                          {handle_.pose.applyToPoint(tick.scene.centreInPart), handle_.pose.rotation});
 }
 
 void ServoTick::movePart(const Subject& subject, const RigidTransform& pose) noexcept {

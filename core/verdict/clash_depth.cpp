@@ -479,8 +479,6 @@ std::optional<ClashDepth> findClashDepth(const DepthBody& scene, const DepthBody
                                          const RigidTransform& sceneFromPart, LmdScratch& scratch,
                                          const DepthLimits& limits) {
   if (scene.tree.isEmpty() || part.tree.isEmpty() || !sceneFromPart.isFinite()) return std::nullopt;
-  if (findInterference(scene.tree, part.tree, sceneFromPart).kind == InterferenceKind::Disjoint)
-    return std::nullopt;
   if (scene.convex != nullptr && part.convex != nullptr) {
     const std::optional<FreeingTranslation> shortest =
         convexDepth(*scene.convex, *part.convex, sceneFromPart);

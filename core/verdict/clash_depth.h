@@ -38,8 +38,9 @@ struct DepthLimits {
 /// exact: pairs of triangles block ranges of it, and it ends at the first place that none blocks and where neither body
 /// is inside the other. Where only touching blocks it, directions tilted by a thousandth are tried.
 ///
-/// @param scratch  Work space, one per thread.
-/// No value if the bodies do not overlap, or no way out was found within the limits. Allocates.
+/// @param scene, part  Overlap, or one contains the other, as findInterference() says; that is not decided again.
+/// @param scratch      Work space, one per thread.
+/// No value if no way out was found within the limits. Allocates.
 std::optional<ClashDepth> findClashDepth(const DepthBody& scene, const DepthBody& part,
                                          const RigidTransform& sceneFromPart, LmdScratch& scratch,
                                          const DepthLimits& limits = {});

@@ -46,7 +46,8 @@ ComparedFinding compared(const PairFinding& now, const PairRecord* before) {
   if (before->verdict == PairVerdict::Clear) return finding;
   finding.before = *before;
   // Marked by hand, it is not fixed as long as it is there.
-  const bool isAccepted = before->state == FindingState::Accepted && finding.change != FindingChange::Worse;
+  const bool isAccepted = before->state == FindingState::Accepted && now.verdict == before->verdict &&
+                          finding.change != FindingChange::Worse;
   finding.state = isAccepted ? FindingState::Accepted : FindingState::New;
   return finding;
 }
@@ -81,10 +82,27 @@ std::vector<ComparedFinding> compareFindings(const SceneCheck& check, const std:
   return findings;
 }
 
+const char* stateWord(FindingState state, std::string_view reason) noexcept {
+  return wasAccepted(state, reason) ? "changed" : wordOf(state);
+}
+
+FindingChanges changesIn(const std::vector<ComparedFinding>& findings) noexcept {
+  FindingChanges changes;
+  for (const ComparedFinding& finding : findings) {
+    if (finding.change == FindingChange::New) ++changes.added;
+    if (finding.change == FindingChange::Worse) ++changes.worse;
+    if (finding.change == FindingChange::Better) ++changes.better;
+    if (finding.change == FindingChange::Gone) ++changes.gone;
+  }
+  return changes;
+}
+
 std::vector<PairRecord> recordsOf(const std::vector<ComparedFinding>& findings) {
   std::vector<PairRecord> records;
   for (const ComparedFinding& finding : findings) {
-    PairRecord record = finding.now != nullptr ? recordOf(*finding.now) : *finding.before;
+    const bool isAsAccepted =
+        finding.state == FindingState::Accepted && finding.change == FindingChange::Same && finding.before;
+    PairRecord record = finding.now != nullptr && !isAsAccepted ? recordOf(*finding.now) : *finding.before;
     if (finding.change == FindingChange::Gone) {
       record.verdict = PairVerdict::Clear;
       record.depth.reset();

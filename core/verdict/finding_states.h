@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/scene/pair_record.h"
@@ -23,8 +24,8 @@ struct ComparedFinding {
       nullptr;  ///< In the check; null if it is gone, or its parts were not checked this time.
   std::optional<PairRecord> before;  ///< No value if the last check did not find it.
   FindingChange change = FindingChange::New;
-  /// The user's word, carried over. An accepted finding that became worse is New again, with its reason; one that is
-  /// gone is Fixed, and New again if it comes back.
+  /// The user's word, carried over. An accepted finding that became worse, or has another verdict, is New again, with its
+  /// reason; one that is gone is Fixed, and New again if it comes back.
   FindingState state = FindingState::New;
   std::string reason;
 };
@@ -37,8 +38,23 @@ struct ComparedFinding {
 /// @param before  In ascending order of pairs, as Scene::pairRecords().
 std::vector<ComparedFinding> compareFindings(const SceneCheck& check, const std::vector<PairRecord>& before);
 
+/// True for a finding that was accepted once and became another since, so that it has to be judged again: it is New, and
+/// has a reason.
+constexpr bool wasAccepted(FindingState state, std::string_view reason) noexcept {
+  return state == FindingState::New && !reason.empty();
+}
+/// "new", "accepted" or "fixed"; "changed" where wasAccepted().
+const char* stateWord(FindingState state, std::string_view reason) noexcept;
+
+/// Number of findings by how they differ from the last check. Those that are the same, or were not checked, are not counted.
+struct FindingChanges {
+  std::size_t added = 0, worse = 0, better = 0, gone = 0;
+};
+FindingChanges changesIn(const std::vector<ComparedFinding>& findings) noexcept;
+
 /// The records to keep with the scene: all that the user said something about, and the worst of the rest, up to
-/// kMaxPairRecords in all. In ascending order of pairs.
+/// kMaxPairRecords in all. In ascending order of pairs. An accepted finding keeps the measures that it was accepted with as
+/// long as it stays the same, so that it cannot creep away from them by steps too small to count.
 std::vector<PairRecord> recordsOf(const std::vector<ComparedFinding>& findings);
 
 }  // namespace nearfit

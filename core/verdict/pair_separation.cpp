@@ -39,8 +39,9 @@ std::optional<PairSeparation> separationOf(const PartGeometry& part, const PartG
   const bool doBoxesMeet = doOverlap(boundsOf(a.mesh().bounds(), otherFromPart), b.mesh().bounds());
   if (!nearest.isFound && !doBoxesMeet) return std::nullopt;
   PairSeparation result;
-  if (doBoxesMeet)
-    result.overlap = findInterference({b, components.other}, {a, components.part}, otherFromPart).kind;
+  Interference found;
+  if (doBoxesMeet) found = findInterference({b, components.other}, {a, components.part}, otherFromPart);
+  result.overlap = found.kind;
   const bool doMeet = result.overlap != InterferenceKind::Disjoint;
   if (!nearest.isFound) {
     if (!doMeet) return std::nullopt;
@@ -50,7 +51,8 @@ std::optional<PairSeparation> separationOf(const PartGeometry& part, const PartG
   result.partPoint = nearest.partPoint;
   result.otherPoint = nearest.scenePoint;
   const double tolerance = touchTolerance(part, other);
-  result.isTouching = doMeet ? doOnlyTouch(b, a, otherFromPart, tolerance) : result.distance <= tolerance;
+  result.isTouching =
+      doMeet ? doOnlyTouch(b, a, otherFromPart, tolerance, found) : result.distance <= tolerance;
   return result;
 }
 

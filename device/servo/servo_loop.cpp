@@ -14,6 +14,7 @@
 #include <time.h>
 
 #include "core/base/error.h"
+#include "core/parallel/parallel_for.h"
 #include "core/realtime/pace_meter.h"
 #include "core/realtime/triple_buffer.h"
 #include "device/servo/scene_refresher.h"
@@ -76,6 +77,8 @@ struct ServoLoop::Shared {
   RealtimeGrant grant;
   std::optional<MemoryLock> memoryLock;
   std::optional<AwakeProcessors> awake;
+  std::optional<ReservedProcessor>
+      processor;  ///< Where no SCHED_FIFO is granted, all but a free processor are late.
   pthread_t thread{};
   bool isJoinable = false;
   bool isDeviceToStop = false;
@@ -109,6 +112,7 @@ void* ServoLoop::Shared::threadMain(void* self) noexcept {
 void ServoLoop::Shared::spawn() {
   memoryLock.emplace(grant);
   if (reportPatience > 0) awake.emplace(grant);
+  processor.emplace();
   // Signals go to the other threads: a handler here would run inside a tick.
   sigset_t all, before;
   ::sigfillset(&all);
@@ -235,6 +239,7 @@ void ServoLoop::stop() noexcept {
   shared_->isJoinable = false;
   shared_->memoryLock.reset();
   shared_->awake.reset();
+  shared_->processor.reset();
   shared_->lastRefreshTimes = shared_->refresher->refreshTimes();
   shared_->refresher.reset();
   if (shared_->isDeviceToStop) shared_->device.stop();

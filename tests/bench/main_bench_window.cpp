@@ -31,6 +31,8 @@ struct Entry {
 std::vector<Entry> entries() {
   return {{"start", "From the program's start to a window that answers", bench::measureStarts},
           {"frames", "Turning a scene while the servo runs, and the servo's lateness", bench::measureFrames},
+          {"servo-beside-check", "The servo's lateness while a scene is checked, and without that",
+           bench::measureBesideCheck},
           {"idle", "The processor while nothing moves", bench::measureIdle},
           {"glyphs", "What minima add to a picture", bench::measureGlyphs},
           {"picks", "What is under the mouse, of a large mesh", bench::measurePicks},
@@ -91,7 +93,9 @@ void addCommands(CLI::App& program, int argc, char** argv) {
   figures->add_option("--starts", window.starts, "Of the program")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  figures->add_option("--triangles", window.triangles, "Of the scene that is turned")
+  figures
+      ->add_option("--triangles", window.triangles,
+                   "Of the scene that is turned, and of the one that is checked")
       ->check(CLI::Range(1000, 100'000'000))
       ->capture_default_str();
   figures

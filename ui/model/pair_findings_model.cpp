@@ -49,6 +49,7 @@ std::vector<ShownFinding> shownFindings(const Scene& scene, const SceneCheck& ch
     row.part = partNameIn(scene, each.pair.part);
     row.other = partNameIn(scene, each.pair.other);
     row.change = each.change;
+    row.before = each.before;
     row.state = each.state;
     row.reason = QString::fromStdString(each.reason);
     row.now = now;
@@ -126,6 +127,22 @@ QString nameOf(FindingChange change) {
       break;
   }
   return QObject::tr("gone");
+}
+
+QString stateText(const ShownFinding& finding) {
+  return wasAccepted(finding.state, finding.reason.toStdString()) ? QObject::tr("changed")
+                                                                  : nameOf(finding.state);
+}
+
+QString changeText(const ShownFinding& finding) {
+  if (!finding.change) return kUnknown;
+  const QString change = nameOf(*finding.change);
+  if (!finding.before || *finding.change == FindingChange::Same) return change;
+  const PairRecord& before = *finding.before;
+  const bool isSameVerdict = before.verdict == finding.verdict;
+  const QString was =
+      isSameVerdict ? formatLength(before.depth.value_or(before.distance)) : nameOf(before.verdict);
+  return QObject::tr("%1, was %2").arg(change, was);
 }
 
 QString ruleText(const PairRule& rule) {
@@ -221,9 +238,9 @@ QString PairFindingsModel::textOf(const ShownFinding& row, int column) {
     case Volume:
       return row.volume ? formatVolume(*row.volume) : kUnknown;
     case Change:
-      return row.change ? nameOf(*row.change) : kUnknown;
+      return changeText(row);
     case State:
-      return nameOf(row.state);
+      return stateText(row);
     default:
       return row.reason;
   }
@@ -241,6 +258,10 @@ QString PairFindingsModel::toolTipOf(const ShownFinding& row, int column) {
       return row.volumeProblem.isEmpty() ? QString() : tr("Not known: %1").arg(row.volumeProblem);
     case Change:
       return row.change ? tr("Beside the last check") : tr("As the last check found it");
+    case State:
+      return wasAccepted(row.state, row.reason.toStdString())
+                 ? tr("It was accepted, and is worse or another since: accept it again, or mend it")
+                 : stateText(row);
     default:
       return textOf(row, column);
   }
@@ -269,7 +290,8 @@ QVariant PairFindingsModel::sortKeyOf(const ShownFinding& row, int column) {
     case Change:
       return row.change ? static_cast<int>(*row.change) : -1;
     default:
-      return static_cast<int>(row.state);
+      // What has to be judged again comes before all else.
+      return wasAccepted(row.state, row.reason.toStdString()) ? -1 : static_cast<int>(row.state);
   }
 }
 

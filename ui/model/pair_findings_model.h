@@ -23,6 +23,8 @@ struct ShownFinding {
   QString volumeProblem;           ///< Why the volume of a clash is not known.
   /// No value if nothing is compared: it is what the scene keeps of its last check.
   std::optional<FindingChange> change;
+  std::optional<PairRecord>
+      before;  ///< As the last check found it; no value if it did not, or nothing is compared.
   FindingState state = FindingState::New;
   QString reason;
   bool isKept = false;               ///< The scene keeps it, so that its state can be changed.
@@ -42,6 +44,10 @@ std::vector<ShownFinding> shownRecords(const Scene& scene);
 QString nameOf(PairVerdict verdict);
 QString nameOf(FindingState state);
 QString nameOf(FindingChange change);
+/// The state in a word; "changed" for a finding that was accepted and became another since (wasAccepted()).
+QString stateText(const ShownFinding& finding);
+/// The change with what was found before: "worse, was 0.40 mm", "better, was clash".
+QString changeText(const ShownFinding& finding);
 /// A rule in words, its length in the unit that the user chose: "Press fit: Bush* and Housing, up to 20 µm".
 QString ruleText(const PairRule& rule);
 /// The depth with what is known of it: "1.20 mm", "at most 1.20 mm"; empty if there is none.

@@ -58,7 +58,12 @@ bool isSeparated(const MeetingBodies& bodies, glm::dvec3 direction, double toler
 
 bool doOnlyTouch(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
                  double tolerance) {
-  const MeetingBodies bodies{scene, part, sceneFromPart, findInterference(scene, part, sceneFromPart)};
+  return doOnlyTouch(scene, part, sceneFromPart, tolerance, findInterference(scene, part, sceneFromPart));
+}
+
+bool doOnlyTouch(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
+                 double tolerance, const Interference& found) {
+  const MeetingBodies bodies{scene, part, sceneFromPart, found};
   if (bodies.found.kind != InterferenceKind::SurfacesMeet) return false;
   if (isSeparated(bodies, glm::dvec3(0.0), tolerance)) return true;
   // Faces that are flush beside the contact have normals that cancel: of equal boxes on each other, for example.

@@ -265,6 +265,15 @@ class ReportPage {
         "rounding comes to. Clash: surfaces pass through each other. Contained: one part is inside the "
         "other. Not allowed: clashes and contained parts that no rule allows.",
         mmText(check.threshold)));
+    const bool hasLast = std::ranges::any_of(
+        report_.findings, [](const ComparedFinding& finding) { return finding.before.has_value(); });
+    if (!hasLast) return;
+    const FindingChanges changes = changesIn(report_.findings);
+    sentence(fmt::format(
+        "Since the last check {} new, {} worse, {} better and {} gone. Changed: accepted by the user, and "
+        "worse or of "
+        "another verdict since.",
+        countOf(changes.added, "finding is", "findings are"), changes.worse, changes.better, changes.gone));
   }
 
   void putScenePictures() {
@@ -314,13 +323,24 @@ class ReportPage {
       if (now != nullptr && now->isForbidden()) html_.put("not allowed");
     });
     cell([&] {
-      const std::string_view state = wordOf(row.state), change = wordOf(row.change);
+      const std::string_view state = stateWord(row.state, row.reason), change = wordOf(row.change);
       html_.put(state);
       if (change != state) html_.put(fmt::format(", {}", change));
+      if (row.change != FindingChange::Same) putBefore(row.before);
       if (row.reason.empty()) return;
       html_.put(": ");
       html_.putName(row.reason);
     });
+  }
+
+  /// What the last check found, where this one finds something else.
+  void putBefore(const std::optional<PairRecord>& before) {
+    if (!before) return;
+    html_.put(fmt::format(", was {}", wordOf(before->verdict)));
+    if (before->verdict == PairVerdict::Near || before->depth) {
+      html_.put(", ");
+      length(before->depth.value_or(before->distance));
+    }
   }
 
   void putVolume(const PairFinding* now) {

@@ -75,6 +75,21 @@ TEST_F(ClearanceAll, RulesOfTheCommandLineLeaveOutAndAllow) {
   EXPECT_THAT(both.out, HasSubstr("1 left out"));
 }
 
+TEST_F(ClearanceAll, SavedFindingsAreWhatTheNextCheckComparesWith) {
+  const std::string before = readBytes(clashing_);
+  EXPECT_EQ(check(clashing_, {}).exitCode, 3);
+  EXPECT_EQ(readBytes(clashing_), before) << "nobody asked for it";
+  const auto first = check(clashing_, {"--save"});
+  EXPECT_EQ(first.exitCode, 3) << "saved or not, it is a clash";
+  EXPECT_THAT(first.out, Not(HasSubstr("since the last check")));
+  const auto second = check(clashing_, {"--json", path("second.json")});
+  EXPECT_THAT(second.out, HasSubstr("since the last check: 0 new, 0 worse, 0 better, 0 gone"));
+  const Json finding = Json::parse(readBytes(path("second.json")))["findings"][0];
+  EXPECT_EQ(finding["change"], "same");
+  EXPECT_NEAR(finding["before"]["depth"].get<double>(), 0.1, 1e-9);
+  EXPECT_EQ(runCli({"clearance", clashing_, "--save"}).exitCode, 2) << "it needs --all";
+}
+
 TEST_F(ClearanceAll, WhatMakesNoSenseIsWrongUsage) {
   for (const std::vector<std::string>& options :
        std::vector<std::vector<std::string>>{{"--threshold", "-1"},

@@ -96,7 +96,7 @@ class DesktopPathTest : public QObject {
   void aFreePathIsCertifiedAndTheCertificateIsProvenAnew();
   void whatIsNotProvenIsShownWhereItIs();
   void aProofEndsWithTheSceneItIsOf();
-  void posesAnimationAndSweptVolumeAreExported();
+  void posesClearancesAnimationAndSweptVolumeAreExported();
 };
 
 void DesktopPathTest::aPathIsPlayedAsARecordingIs() {
@@ -216,7 +216,7 @@ void DesktopPathTest::aProofEndsWithTheSceneItIsOf() {
   QVERIFY(f.d.text("timelineResult").isEmpty());
 }
 
-void DesktopPathTest::posesAnimationAndSweptVolumeAreExported() {
+void DesktopPathTest::posesClearancesAnimationAndSweptVolumeAreExported() {
   PathFixture f;
   f.open(f.writePath("moving", placeAt(0.03, 0.0)));
   const auto write = [&f](const char* command, const char* name, const QString& dialog) {
@@ -230,10 +230,14 @@ void DesktopPathTest::posesAnimationAndSweptVolumeAreExported() {
   };
   const std::string poses = write("exportPathCsv", "poses.csv", {});
   QVERIFY2(poses.starts_with("t_s,"), poses.c_str());
+  const std::string clearances = write("exportPathClearance", "clearances.csv", {});
+  QVERIFY2(clearances.starts_with("t_s,fixed [m]\n"), clearances.c_str());
   const std::string animation = write("exportPathGltf", "motion.glb", {});
   QVERIFY(animation.starts_with("glTF"));
   const std::string swept = write("exportSwept", "swept.stl", QStringLiteral("sweptDialog"));
   QVERIFY(swept.size() > 84);
+  const std::string named = write("exportSwept", "swept.obj", QStringLiteral("sweptDialog"));
+  QVERIFY(named.find("\nv ") != std::string::npos);
   QVERIFY(f.failures.isEmpty());
 }
 

@@ -76,6 +76,7 @@ class DesktopSceneCheckTest : public QObject {
 
  private slots:
   void theTableSaysWhichPairsClashAndWhichAreNear();
+  void namesAreShownWhole();
   void aRowHighlightsItsPairAndMarksThePlace();
   void returnGoesToThePlace();
   void aFindingIsAcceptedWithAReasonAsAStepToUndo();
@@ -110,6 +111,37 @@ void DesktopSceneCheckTest::theTableSaysWhichPairsClashAndWhichAreNear() {
   QCOMPARE(f.of("fixed", "moving", PairFindingsModel::Distance), QStringLiteral("0.197 in"));
   f.d.choose("unit-mm");
   keepPictures(f.d.window(), QStringLiteral("scene-check"));
+}
+
+void DesktopSceneCheckTest::namesAreShownWhole() {
+  SceneCheckFixture f;
+  f.d.session().renamePart(f.d.partId("fixed"), "Gearbox housing, lower");
+  f.d.session().renamePart(f.d.partId("moving"), "Bearing cover, left");
+  f.d.session().renamePart(f.d.partId("plug"), "Drain plug M12");
+  f.check();
+  const auto areWhole = [&f] {
+    const int margin = f.table->style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, f.table) + 1;
+    for (int row = 0; row < f.table->model()->rowCount(); ++row) {
+      for (const int column : {PairFindingsModel::First, PairFindingsModel::Second}) {
+        const QString name = f.cell(row, column);
+        const int width = f.table->columnWidth(column) - 2 * margin;
+        if (f.table->fontMetrics().elidedText(name, Qt::ElideRight, width) != name) return false;
+      }
+    }
+    return true;
+  };
+  QCOMPARE(f.table->model()->rowCount(), 2);
+  QVERIFY(areWhole());
+  keepPictures(f.d.window(), QStringLiteral("scene-check-names"));
+  // The next result leaves the columns as they are.
+  std::vector<int> widths;
+  for (int column = 0; column < PairFindingsModel::ColumnCount; ++column)
+    widths.push_back(f.table->columnWidth(column));
+  f.d.session().movePart(f.d.partId("Drain plug M12"), {{1, 0, 0, 0}, {0.08, 0.0, 0.0}});
+  f.check();
+  for (const int column : {PairFindingsModel::First, PairFindingsModel::Second, PairFindingsModel::Verdict})
+    QVERIFY(f.table->columnWidth(column) <= widths[static_cast<std::size_t>(column)]);
+  QVERIFY(areWhole());
 }
 
 void DesktopSceneCheckTest::aRowHighlightsItsPairAndMarksThePlace() {
@@ -175,13 +207,13 @@ void DesktopSceneCheckTest::theNextCheckSaysWhatHasChanged() {
   const PartId plug = f.d.partId("plug");
   f.d.session().movePart(plug, {{1, 0, 0, 0}, {-0.001, 0.0, 0.0}});
   f.check();
-  QCOMPARE(f.of("fixed", "plug", PairFindingsModel::Change), QStringLiteral("worse"));
+  QCOMPARE(f.of("fixed", "plug", PairFindingsModel::Change), QStringLiteral("worse, was 5.00 mm"));
   QCOMPARE(f.of("fixed", "plug", PairFindingsModel::Depth), QStringLiteral("6.00 mm"));
   QCOMPARE(f.of("fixed", "moving", PairFindingsModel::Change), QStringLiteral("same"));
   // 75 mm from the first, and farther from the other.
   f.d.session().movePart(plug, {{1, 0, 0, 0}, {0.08, 0.0, 0.0}});
   f.check();
-  QCOMPARE(f.of("fixed", "plug", PairFindingsModel::Change), QStringLiteral("gone"));
+  QCOMPARE(f.of("fixed", "plug", PairFindingsModel::Change), QStringLiteral("gone, was clash"));
   QCOMPARE(f.of("fixed", "plug", PairFindingsModel::State), QStringLiteral("fixed"));
   QCOMPARE(f.summary(), QStringLiteral("no clash, 1 near, 2 clear"));
 }

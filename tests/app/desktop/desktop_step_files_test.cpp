@@ -1,6 +1,7 @@
-// STEP files in the window by the program that reads them: opened, felt, saved and opened again, and what is left when
-// that program is killed. Those beside the repository where they are, else the tests' own.
+// STEP files in the window by the programs that read and write them: opened, felt, saved and opened again, exported, and
+// what is left when the reader is killed. Those beside the repository where they are, else the tests' own.
 #include <QProgressBar>
+#include <QStatusBar>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
+#include "tests/app/desktop/export_driver.h"
 #include "tests/app/desktop/file_drop.h"
 #include "tests/support/scoped_variable.h"
 #include "ui/model/selection.h"
@@ -243,12 +245,16 @@ class DesktopStepFilesTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void initTestCase() { qputenv("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM); }
+  void initTestCase() {
+    qputenv("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+    qputenv("NEARFIT_EXPORT", NEARFIT_EXPORT_PROGRAM);
+  }
   void init() { QSettings().clear(); }
   void anAssemblyIsFeltSavedAndOpenedAgainAsItIs_data();
   void anAssemblyIsFeltSavedAndOpenedAgainAsItIs();
   void aKilledImporterLeavesAMessageAndTheSceneAsItWas();
   void anImporterThatHangsEndsAtOnceWithCancel();
+  void aStepFileHasTheChosenSchema();
 };
 
 void DesktopStepFilesTest::anAssemblyIsFeltSavedAndOpenedAgainAsItIs_data() {
@@ -334,6 +340,44 @@ void DesktopStepFilesTest::anImporterThatHangsEndsAtOnceWithCancel() {
   QTRY_VERIFY(d.isGone());
   d.verifyNothingIsTold();
   d.verifySceneIsAsItWas();
+}
+
+void DesktopStepFilesTest::aStepFileHasTheChosenSchema() {
+  constexpr int kStlRow = 2, kStepRow = 10;
+  StepDesk d;
+  d.addCubes();
+  const std::filesystem::path file = d.folder.path() / "fit.step";
+  bool isOfferedForMeshes = true;
+  // Left alone the second time: what was chosen is proposed again.
+  for (const bool isChosen : {true, false}) {
+    whenModal<ui::ExportDialog>([&, isChosen](ui::ExportDialog* dialog) {
+      const auto choose = [dialog](const char* box, int row) {
+        auto* field = dialog->findChild<QComboBox*>(QLatin1String(box));
+        field->setFocus();
+        QTest::keyClick(field, Qt::Key_Home);
+        for (int i = 0; i < row; ++i)
+          QTest::keyClick(field, Qt::Key_Down);
+        return field->isEnabled();
+      };
+      choose("exportKind", kStlRow);
+      isOfferedForMeshes = dialog->findChild<QComboBox*>(QStringLiteral("exportSchema"))->isEnabled();
+      choose("exportKind", kStepRow);
+      if (isChosen) choose("exportSchema", 1);
+      QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save),
+                        Qt::LeftButton);
+    });
+    whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, nameOf(file)); });
+    pressShortcut(d, Qt::Key_E, Qt::ControlModifier);
+    QTRY_COMPARE(d.window().statusBar()->currentMessage(), QStringLiteral("Exported fit.step"));
+    QVERIFY(!isOfferedForMeshes);
+    // The name of the schema, by ISO 10303-242; that of AP214 is AUTOMOTIVE_DESIGN.
+    const std::string text = readBytes(file);
+    QVERIFY(text.find("AP242_MANAGED_MODEL_BASED_3D_ENGINEERING") != text.npos);
+    QVERIFY(text.find("AUTOMOTIVE_DESIGN") == text.npos);
+    QVERIFY(std::filesystem::remove(file));
+    d.window().statusBar()->clearMessage();
+  }
+  d.verifyNothingIsTold();
 }
 
 NEARFIT_QT_SUITE(DesktopStepFilesTest, runDesktopTest<DesktopStepFilesTest>)

@@ -14,6 +14,8 @@ int startAndLeave(int argc, char** argv);
 
 /// A scene turned by the mouse while the servo runs, and the servo's lateness with and without that.
 std::vector<Figure> measureFrames(const WindowOptions& options);
+/// The servo's lateness while a scene is checked beside it, and without that.
+std::vector<Figure> measureBesideCheck(const WindowOptions& options);
 /// What the processor does while nobody does anything.
 std::vector<Figure> measureIdle(const WindowOptions& options);
 /// What minima add to a picture.

@@ -1,3 +1,4 @@
+#include <atomic>
 #include <cmath>
 #include <ctime>
 #include <functional>
@@ -7,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
+#include "core/verdict/scene_check.h"
 #include "device/servo/servo_loop.h"
 #include "tests/bench/bench_shapes.h"
 #include "tests/bench/instances.h"
@@ -40,14 +43,14 @@ Scene pairOf(std::size_t triangles) {
   return scene;
 }
 
-Figure latenessOf(std::string way, const std::vector<ServoStatistics>& turns) {
+Figure latenessOf(std::string name, std::string way, const std::vector<ServoStatistics>& turns) {
   const auto middle = [&](double fraction) {
     std::vector<double> values;
     for (const ServoStatistics& turn : turns)
       values.push_back(1e6 * turn.lateness.percentile(fraction));
     return SampleSummary(values).percentile(0.5);
   };
-  Figure figure{"lateness", std::move(way), "us"};
+  Figure figure{std::move(name), std::move(way), "us"};
   for (const ServoStatistics& turn : turns) {
     figure.count += turn.lateness.count();
     figure.max = std::max(figure.max, 1e6 * turn.lateness.max());
@@ -93,6 +96,47 @@ class Frames {
   double busy_ = 0.0;
 };
 
+/// A row of scans, each of which clashes with its neighbours: work of all kinds for a check, for as long as wanted.
+Scene clashingRow(std::size_t triangles) {
+  constexpr std::size_t kParts = 8;
+  constexpr double kSpacing = 0.8;
+  Scene scene;
+  for (std::size_t i = 0; i < kParts; ++i)
+    scene.add(test::partOf(test::geometryOf(organicMesh(frequencyOf(triangles / kParts), i + 1)),
+                           fmt::format("scan {}", i + 1).c_str(),
+                           {{1, 0, 0, 0}, {kSpacing * static_cast<double>(i), 0.0, 0.0}}));
+  return scene;
+}
+
+/// Checks a scene again and again, as the window does it, while it lives.
+class ChecksBeside {
+ public:
+  explicit ChecksBeside(const Scene& scene) : request_(sceneCheckRequest(scene, 0.1)) {
+    request_.isLowPriority = true;
+    thread_ = std::thread([this] { run(); });
+  }
+  ~ChecksBeside() {
+    isOver_ = true;
+    thread_.join();
+  }
+  ChecksBeside(const ChecksBeside&) = delete;
+  ChecksBeside& operator=(const ChecksBeside&) = delete;
+
+ private:
+  void run() {
+    try {
+      while (!isOver_)
+        (void)checkScene(request_, [this](double) { return !isOver_; });
+    } catch (const Cancelled&) {
+      // The measurement has ended.
+    }
+  }
+
+  SceneCheckRequest request_;
+  std::atomic<bool> isOver_{false};
+  std::thread thread_;
+};
+
 std::string detailText(BenchWindow& window) {
   return fmt::format("{} triangles a picture", window.view().detail().detail().triangles);
 }
@@ -128,10 +172,45 @@ std::vector<Figure> measureFrames(const WindowOptions& options) {
     PlainWindow bare(scene);
     plain.add([&] { return bare.orbit(options.time); });
   }
-  Figure drawing = latenessOf("while the view is turned", with), still = latenessOf("window asleep", without);
+  Figure drawing = latenessOf("lateness", "while the view is turned", with),
+         still = latenessOf("lateness", "window asleep", without);
   drawing.goal = kLatenessFactor * still.p99;
   drawing.goalOf = "p99";
   return {large.figure(kFrameGoal), small.figure(kFrameGoal), plain.figure(0.0), drawing, still};
+}
+
+std::vector<Figure> measureBesideCheck(const WindowOptions& options) {
+  const Scene checked = clashingRow(options.triangles);
+  BenchWindow window;
+  window.open(pairOf(options.triangles));
+  std::vector<ServoStatistics> beside, alone;
+  double busy = 0.0;
+  for (std::size_t turn = 0; turn < options.turns; ++turn) {
+    // The window neither draws nor looks at the servo, in either way.
+    window.startServo();
+    std::this_thread::sleep_for(options.time);
+    window.stopServo();
+    alone.push_back(window.application().servo().statistics());
+    window.startServo();
+    {
+      const double before = processorSeconds();
+      const ChecksBeside checks(checked);
+      std::this_thread::sleep_for(options.time);
+      busy += processorSeconds() - before;
+      window.stopServo();
+    }
+    beside.push_back(window.application().servo().statistics());
+  }
+  const std::string name = "servo-beside-check";
+  Figure with = latenessOf(name, "while a scene is checked", beside),
+         without = latenessOf(name, "without", alone);
+  with.goal = kLatenessFactor * without.p99;
+  with.goalOf = "p99";
+  const double seconds =
+      1e-3 * static_cast<double>(options.time.count()) * static_cast<double>(options.turns);
+  with.remark +=
+      fmt::format("; {:.2f} processors busy; {} triangles checked", busy / seconds, trianglesOf(checked));
+  return {with, without};
 }
 
 std::vector<Figure> measureIdle(const WindowOptions& options) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -11,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/parallel/shared_progress.h"
+#include "tests/support/eventually.h"
 
 namespace nearfit::parallel_for_test {
 namespace {
@@ -37,6 +40,47 @@ TEST(ParallelFor, CallsWithinCallsUseNoMoreThreadsThanProcessors) {
   });
   EXPECT_GE(most, 1);
   EXPECT_LE(most, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+}
+
+int processorCount() {
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+TEST(ParallelFor, NobodyHelpsWhileAllProcessorsAreReserved) {
+  const std::vector<ReservedProcessor> reserved(static_cast<std::size_t>(processorCount()));
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<int> calls{0}, helped{0};
+  parallelFor(1000, [&](std::size_t) {
+    ++calls;
+    if (std::this_thread::get_id() != caller) ++helped;
+  });
+  EXPECT_EQ(calls, 1000);
+  EXPECT_EQ(helped, 0);
+}
+
+TEST(ParallelFor, HelpersLeaveOnceTheirProcessorsAreReserved) {
+  const std::thread::id caller = std::this_thread::get_id();
+  const int helpers = processorCount() - 1;
+  std::optional<std::vector<ReservedProcessor>> reserved;
+  std::atomic<bool> isReserved{helpers == 0};
+  std::once_flag once;
+  std::atomic<int> calls{0}, helpedAfter{0};
+  parallelFor(10'000, [&](std::size_t) {
+    ++calls;
+    if (std::this_thread::get_id() == caller) {
+      // A helper comes, which was hired before the first call.
+      EXPECT_TRUE(test::eventually([&] { return isReserved.load(); }));
+      return;
+    }
+    if (isReserved) ++helpedAfter;
+    std::call_once(once, [&] {
+      reserved.emplace(static_cast<std::size_t>(processorCount()));
+      isReserved = true;
+    });
+  });
+  EXPECT_EQ(calls, 10'000);
+  // Each helper that was hired may not have begun yet.
+  EXPECT_LE(helpedAfter, helpers);
 }
 
 TEST(ParallelFor, ExceptionEndsTheWorkAndComesOut) {

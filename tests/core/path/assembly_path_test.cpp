@@ -155,16 +155,22 @@ TEST(AssemblyPath, TheWayOfAPointFollowsItsArc) {
   for (const double angle : {0.0, 0.5, 1.0, 1.0})
     path.poses.push_back({static_cast<double>(path.poses.size()),
                           {rotationOf({0.0, 0.0, angle * std::numbers::pi}), glm::dvec3(0.0)}});
-  const std::vector<glm::dvec3> way = wayOf(path, {2.0, 0.0, 0.0});
+  const std::vector<GuidancePose> way = wayOf(path, {2.0, 0.0, 0.0});
   ASSERT_GT(way.size(), 60U);
-  EXPECT_NEAR(glm::distance(way.back(), glm::dvec3(-2.0, 0.0, 0.0)), 0.0, 1e-12);
+  EXPECT_NEAR(glm::distance(way.back().place, glm::dvec3(-2.0, 0.0, 0.0)), 0.0, 1e-12);
   for (std::size_t i = 0; i < way.size(); ++i) {
-    EXPECT_NEAR(glm::length(way[i]), 2.0, 1e-12);
+    EXPECT_NEAR(glm::length(way[i].place), 2.0, 1e-12);
     if (i == 0) continue;
-    EXPECT_GT(glm::distance(way[i - 1], way[i]), 0.0);
+    EXPECT_GT(glm::distance(way[i - 1].place, way[i].place), 0.0);
     // No farther from the arc than a 3000th of its radius.
-    EXPECT_GT(glm::length(0.5 * (way[i - 1] + way[i])), 2.0 * (1.0 - 1.0 / 3000.0));
+    EXPECT_GT(glm::length(0.5 * (way[i - 1].place + way[i].place)), 2.0 * (1.0 - 1.0 / 3000.0));
   }
+  // The centre stays, and turns: its way is of rotations alone.
+  const std::vector<GuidancePose> turned = wayOf(path, {0.0, 0.0, 0.0});
+  ASSERT_EQ(turned.size(), way.size());
+  for (const GuidancePose& pose : turned)
+    EXPECT_EQ(pose.place, glm::dvec3(0.0));
+  EXPECT_NEAR(std::abs(turned.back().rotation.z), 1.0, 1e-12);
 }
 
 }  // namespace

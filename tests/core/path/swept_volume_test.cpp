@@ -8,10 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/import/mesh_import.h"
 #include "core/mesh/mass_properties.h"
 #include "tests/exact/exact_meeting.h"
 #include "tests/support/path_scenes.h"
 #include "tests/support/random_values.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nearfit::swept_volume_test {
 namespace {
@@ -84,6 +86,27 @@ TEST(SweptVolume, AllMovingPartsCount) {
   EXPECT_NEAR(test::windingNumber(mesh, {0.0, 4.5, 0.0}), 1.0, 1e-6);
   EXPECT_NEAR(test::windingNumber(mesh, {0.0, 1.5, 0.0}), 1.0, 1e-6);
   EXPECT_NEAR(test::windingNumber(mesh, {0.0, 0.0, 0.0}), 0.0, 1e-6) << "the post does not move";
+}
+
+TEST(SweptVolume, IsWrittenInTheFormatOfTheSuffixAndInTheUnit) {
+  test::PathScene made;
+  made.scene.add(test::partOf(test::geometryOf(test::boxMesh({0.2, 0.3, 0.4})), "Cube"));
+  made.path = test::pathThrough("Cube", {test::at(-0.5, 0, 0), test::at(0.5, 0, 0)});
+  const test::TemporaryFolder folder;
+  const std::size_t triangles = sweptVolume(made.scene, made.path, 0.1).triangles().size();
+  for (const char* name : {"swept.stl", "swept.OBJ", "swept.ply"}) {
+    const auto file = folder.path() / name;
+    EXPECT_EQ(writeSweptVolume(made.scene, made.path, 0.1, 1e-3, file), triangles);
+    // Around the box that it passes, 1.2 m x 0.3 m x 0.4 m, in millimetres; STL has single precision.
+    const TriangleMesh read = importMesh(file, {.metresPerUnit = 1.0}).mesh;
+    EXPECT_EQ(read.triangles().size(), triangles) << name;
+    const glm::dvec3 size = read.bounds().upper - read.bounds().lower;
+    EXPECT_GE(size.x, 1200.0 - 1e-3) << name;
+    EXPECT_LE(size.x, 1400.0 + 1e-3) << name;
+    EXPECT_GE(size.y, 300.0 - 1e-3) << name;
+    EXPECT_LE(size.y, 500.0 + 1e-3) << name;
+  }
+  EXPECT_THROW(writeSweptVolume(made.scene, made.path, 0.1, 1e-3, folder.path() / "swept.step"), UsageError);
 }
 
 TEST(SweptVolume, ResolutionsThatCannotBeMadeAreRefused) {

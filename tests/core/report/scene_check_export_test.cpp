@@ -78,7 +78,7 @@ TEST(SceneCheckExport, CsvHasHarmlessCellsAndARowForEachFinding) {
   std::size_t lines = 0;
   for (std::size_t begin = 0; begin < csv.size(); ++lines) {
     const std::size_t end = csv.find('\n', begin);
-    EXPECT_EQ(columns(csv.substr(begin, end - begin)), 26U);
+    EXPECT_EQ(columns(csv.substr(begin, end - begin)), 29U);
     begin = end + 1;
   }
   EXPECT_EQ(lines, 1 + check.findings.size());
@@ -96,6 +96,33 @@ TEST(SceneCheckExport, TheTableBeginsWithTheWorstAndTellsWhatIsGone) {
   EXPECT_EQ(sceneCheckSummary(check),
             "3 pairs checked, 0 left out: 0 clear, 2 near, 0 touching, 1 clashes, 0 contained; "
             "1 not allowed\n");
+}
+
+TEST(SceneCheckExport, EachFormSaysWhatTheLastCheckFound) {
+  Scene scene = boxes();
+  const SceneCheck first = checkScene(sceneCheckRequest(scene, 0.25));
+  EXPECT_EQ(sceneCheckChanges(compareFindings(first, {})), "") << "nothing was checked before";
+  std::vector<PairRecord> before = recordsOf(compareFindings(first, {}));
+  // The clash was accepted, and then was deeper than it is; the other one is where it was.
+  ASSERT_EQ(before.size(), 2U);
+  before[0].state = FindingState::Accepted;
+  before[0].reason = "glued";
+  before[0].depth = 0.05;
+  const std::vector<ComparedFinding> compared = compareFindings(first, before);
+  const Json json = Json::parse(sceneCheckJson(scene, first, compared));
+  const Json &clash = json["findings"][0], &near = json["findings"][1];
+  EXPECT_EQ(clash["state"], "changed");
+  EXPECT_EQ(clash["change"], "worse");
+  EXPECT_EQ(clash["before"]["verdict"], "clash");
+  EXPECT_EQ(clash["before"]["depth"], 0.05);
+  EXPECT_EQ(near["change"], "same");
+  EXPECT_EQ(near["before"]["depth"], nullptr);
+  EXPECT_NEAR(near["before"]["distance"].get<double>(), 0.2, 1e-12);
+  const std::string csv = sceneCheckCsv(scene, first, compared);
+  EXPECT_THAT(csv, HasSubstr(",clash,0,,changed,worse,glued,"));
+  EXPECT_THAT(csv, HasSubstr(",clash,0,0.05\n"));
+  EXPECT_THAT(sceneCheckTable(scene, first, compared), HasSubstr("changed    worse"));
+  EXPECT_EQ(sceneCheckChanges(compared), "since the last check: 0 new, 1 worse, 0 better, 0 gone\n");
 }
 
 TEST(SceneCheckExport, TheResultDoesNotDependOnTheNumberOfThreads) {

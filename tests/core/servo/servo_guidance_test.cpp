@@ -5,6 +5,7 @@
 #include <random>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
 #include "core/servo/scene_tracker.h"
@@ -30,7 +31,7 @@ class ServoGuidance : public testing::Test {
     auto scene = std::make_shared<ServoScene>();
     scene->setMoving({PartId{1}, test::geometryOf(test::boxMesh({0.2, 0.2, 0.2})), at({0.0, 0.0, 0.0})});
     scene->guidance = std::make_shared<const GuidancePath>(
-        std::vector<glm::dvec3>{{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}}, kPull);
+        std::vector<GuidancePose>{{{-1, 0, 0}}, {{0, 0, 0}}, {{1, 0, 0}}}, kPull);
     setScene(scene);
   }
   void setScene(const std::shared_ptr<const ServoScene>& scene) {
@@ -38,8 +39,8 @@ class ServoGuidance : public testing::Test {
     tracker_.setScene(scene);
     tracker_.refresh(searchReach(parameters_.haptics), tracked_);
   }
-  const ServoSnapshot& tick(const glm::dvec3& hand) {
-    tick_.run(tracked_, parameters_, {.pose = at(hand)}, kPeriod, *snapshot_);
+  const ServoSnapshot& tick(const glm::dvec3& hand, const glm::dquat& turn = {1, 0, 0, 0}) {
+    tick_.run(tracked_, parameters_, {.pose = {turn, hand}}, kPeriod, *snapshot_);
     ++snapshot_->tick;
     return *snapshot_;
   }
@@ -59,10 +60,35 @@ TEST_F(ServoGuidance, PullsTheHandToThePathAndNotAlongIt) {
     tick({0.3, 0.005, 0.0});
   const ServoSnapshot& s = tick({0.3, 0.005, 0.0});
   // 80 N/m at 5 mm; the device's bound of 2000 N/m leaves 200 N/m.
-  EXPECT_NEAR(s.guidance.y, -0.4, 1e-9);
-  EXPECT_NEAR(s.guidance.x, 0.0, 1e-12);
+  EXPECT_NEAR(s.guidance.force.y, -0.4, 1e-9);
+  EXPECT_NEAR(s.guidance.force.x, 0.0, 1e-12);
   EXPECT_NEAR(s.unclampedWrench.force.y, -0.4, 1e-6) << "nothing else is felt";
-  EXPECT_EQ(tick({0.3, 0.5, 0.0}).guidance, glm::dvec3(0.0)) << "the hand has left it";
+  EXPECT_EQ(tick({0.3, 0.5, 0.0}).guidance.force, glm::dvec3(0.0)) << "the hand has left it";
+}
+
+TEST_F(ServoGuidance, TurnsTheHandToThePath) {
+  constexpr double kAngle = 0.1;
+  const glm::dquat turn = glm::angleAxis(kAngle, glm::dvec3(0, 0, 1));
+  for (int i = 0; i < 200; ++i)
+    tick({0.0, 0.0, 0.0});
+  for (int i = 0; i < 500; ++i)
+    tick({0.3, 0.0, 0.0}, turn);
+  const ServoSnapshot& s = tick({0.3, 0.0, 0.0}, turn);
+  // A radian counts as 40 mm: 80 N/m times the square of that, by the sine of an angle as GuidancePath measures it.
+  EXPECT_NEAR(s.guidance.torque.z, -80.0 * 0.04 * 0.04 * 2.0 * std::sin(kAngle / 2.0), 1e-9);
+  EXPECT_NEAR(glm::length(s.guidance.force), 0.0, 1e-12);
+  EXPECT_NEAR(s.unclampedWrench.torque.z, s.guidance.torque.z, 1e-6) << "nothing else is felt";
+  EXPECT_EQ(tick({0.3, 0.0, 0.0}, glm::angleAxis(1.2, glm::dvec3(0, 0, 1))).guidance.torque, glm::dvec3(0.0));
+}
+
+TEST_F(ServoGuidance, ADeviceWithoutTorqueIsGuidedInPlaceAlone) {
+  parameters_.limits.maxTorque = 0.0;
+  const glm::dquat turn = glm::angleAxis(2.0, glm::dvec3(0, 0, 1));
+  for (int i = 0; i < 700; ++i)
+    tick({0.3, 0.005, 0.0}, turn);
+  const ServoSnapshot& s = tick({0.3, 0.005, 0.0}, turn);
+  EXPECT_NEAR(s.guidance.force.y, -0.4, 1e-9) << "it cannot help its turn";
+  EXPECT_EQ(s.guidance.torque, glm::dvec3(0.0));
 }
 
 TEST_F(ServoGuidance, WithoutAPathNothingPulls) {
@@ -70,7 +96,7 @@ TEST_F(ServoGuidance, WithoutAPathNothingPulls) {
   scene->guidance = nullptr;
   setScene(scene);
   for (int i = 0; i < 100; ++i)
-    EXPECT_EQ(tick({0.0, 0.005, 0.0}).guidance, glm::dvec3(0.0));
+    EXPECT_EQ(tick({0.0, 0.005, 0.0}).guidance.force, glm::dvec3(0.0));
 }
 
 TEST_F(ServoGuidance, AHandThatWandersAboutGainsNoEnergy) {

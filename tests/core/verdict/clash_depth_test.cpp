@@ -175,9 +175,7 @@ TEST(ClashDepth, JaggedBodiesAreFreeAfterItAndNoAxisOfTheirBoxesIsShorter) {
   EXPECT_GT(tried, 5);
 }
 
-TEST(ClashDepth, BodiesThatAreApartHaveNoneAndTheSearchCanBeBounded) {
-  const TriangleMesh box = test::boxMesh(glm::dvec3(1.0));
-  EXPECT_FALSE(depthOf(box, box, at({1.5, 0, 0})));
+TEST(ClashDepth, TheSearchCanBeBounded) {
   const NormalConeTree corner(test::cornerSolid()), ball(test::icosphereMesh(0.5, 3));
   LmdScratch scratch(1024);
   EXPECT_FALSE(findClashDepth({corner}, {ball}, at({0.1, 0.1, 0.1}), scratch, {.maxNodePairs = 1}));

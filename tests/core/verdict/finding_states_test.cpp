@@ -64,7 +64,7 @@ TEST(FindingStates, NearerDeeperAndAWorseVerdictAreWorseAndTheContraryIsBetter) 
   EXPECT_EQ(changeBetween(clash(p, 2e-4), clash(p, 1e-4)), FindingChange::Better);
 }
 
-TEST(FindingStates, AnAcceptedFindingStaysSoUntilItIsWorse) {
+TEST(FindingStates, AnAcceptedFindingStaysSoUntilItIsWorseOrAnother) {
   const PartPair p = pairOf(1, 2);
   std::vector<PairRecord> records = saved(checkOf({clash(p, 1e-4)}));
   records[0].state = FindingState::Accepted;
@@ -74,6 +74,58 @@ TEST(FindingStates, AnAcceptedFindingStaysSoUntilItIsWorse) {
   const ComparedFinding now = compareFindings(worse, records).at(0);
   EXPECT_EQ(now.state, FindingState::New);
   EXPECT_EQ(now.reason, "pressed in");
+  const SceneCheck shallower = checkOf({clash(p, 5e-5)}), apart = checkOf({near(p, 1e-3)});
+  EXPECT_EQ(compareFindings(shallower, records).at(0).state, FindingState::Accepted);
+  const ComparedFinding loose = compareFindings(apart, records).at(0);
+  EXPECT_EQ(loose.state, FindingState::New) << "a fit was accepted, not a gap";
+  EXPECT_EQ(loose.change, FindingChange::Better);
+}
+
+TEST(FindingStates, AFindingThatWasAcceptedAndChangedIsCalledSoUntilItIsJudgedAgain) {
+  const PartPair p = pairOf(1, 2);
+  std::vector<PairRecord> records = saved(checkOf({clash(p, 1e-4)}));
+  EXPECT_STREQ(stateWord(records[0].state, records[0].reason), "new");
+  records[0].state = FindingState::Accepted;
+  records[0].reason = "pressed in";
+  EXPECT_STREQ(stateWord(records[0].state, records[0].reason), "accepted");
+  const SceneCheck worse = checkOf({clash(p, 2e-4)});
+  // The second check finds the same as the first, but nobody has said anything meanwhile.
+  for (const FindingChange change : {FindingChange::Worse, FindingChange::Same}) {
+    const ComparedFinding now = compareFindings(worse, records).at(0);
+    EXPECT_EQ(now.change, change);
+    EXPECT_STREQ(stateWord(now.state, now.reason), "changed");
+    records = saved(worse, records);
+  }
+}
+
+TEST(FindingStates, AnAcceptedFindingCannotCreepAwayInSmallSteps) {
+  const PartPair p = pairOf(1, 2);
+  std::vector<PairRecord> records = saved(checkOf({near(p, 1e-3)}));
+  records[0].state = FindingState::Accepted;
+  records[0].reason = "room enough";
+  double distance = 1e-3;
+  int checks = 0;
+  while (records[0].state == FindingState::Accepted && checks < 100) {
+    // Each step is half of what counts as another distance.
+    distance *= 1.0 - 5e-4;
+    records = saved(checkOf({near(p, distance)}), records);
+    ++checks;
+  }
+  EXPECT_GE(checks, 2);
+  EXPECT_LE(checks, 3);
+}
+
+TEST(FindingStates, ChangesAreCountedByKind) {
+  const PartPair worse = pairOf(1, 2), better = pairOf(1, 3), gone = pairOf(2, 3), same = pairOf(1, 4);
+  const std::vector<PairRecord> records =
+      saved(checkOf({near(worse, 2e-3), near(better, 1e-3), near(same, 1e-3), clash(gone, 1e-4)}));
+  const SceneCheck now =
+      checkOf({near(worse, 1e-3), near(better, 2e-3), near(same, 1e-3), near(pairOf(2, 4), 1e-3)});
+  const FindingChanges changes = changesIn(compareFindings(now, records));
+  EXPECT_EQ(changes.added, 1U);
+  EXPECT_EQ(changes.worse, 1U);
+  EXPECT_EQ(changes.better, 1U);
+  EXPECT_EQ(changes.gone, 1U);
 }
 
 TEST(FindingStates, WhatIsGoneIsFixedAndNewWhenItComesBack) {

@@ -62,6 +62,7 @@ class PairFindingsModelTest : public QObject {
   void eachRowSaysWhatIsKnownOfAPair();
   void theWorstComeFirst();
   void whatIsGoneStaysInTheTableAsFixed();
+  void whatWasAcceptedAndChangedIsToBeJudgedAgain();
   void whatAHiddenPartHadIsNotListed();
   void statesFollowTheScene();
   void rowsOfAnOldCheckAreGrey();
@@ -100,10 +101,24 @@ void PairFindingsModelTest::whatIsGoneStaysInTheTableAsFixed() {
   f.compare({before});
   QCOMPARE(f.model.rowCount(), 3);
   QCOMPARE(f.text(0, PairFindingsModel::Verdict), QStringLiteral("clear"));
-  QCOMPARE(f.text(0, PairFindingsModel::Change), QStringLiteral("gone"));
+  QCOMPARE(f.text(0, PairFindingsModel::Change), QStringLiteral("gone, was clash"));
   QCOMPARE(f.text(0, PairFindingsModel::State), QStringLiteral("fixed"));
   QVERIFY(f.model.at(0).now == nullptr);
   QVERIFY(f.rank(0) < f.rank(2));
+}
+
+void PairFindingsModelTest::whatWasAcceptedAndChangedIsToBeJudgedAgain() {
+  Found f;
+  f.compare({{{f.ids[0], f.ids[1]}, PairVerdict::Clash, 0.0, 0.001, FindingState::Accepted, "press fit"},
+             {{f.ids[0], f.ids[2]}, PairVerdict::Touching, 0.0, {}, FindingState::Accepted, "guided"},
+             {{f.ids[1], f.ids[2]}, PairVerdict::Touching, 0.0, {}, FindingState::Accepted, "stop"}});
+  QCOMPARE(f.text(0, PairFindingsModel::Change), QStringLiteral("worse, was 1.00 mm"));
+  QCOMPARE(f.text(0, PairFindingsModel::State), QStringLiteral("changed"));
+  QCOMPARE(f.text(0, PairFindingsModel::Reason), QStringLiteral("press fit"));
+  QCOMPARE(f.text(1, PairFindingsModel::Change), QStringLiteral("better, was touching"));
+  QCOMPARE(f.text(1, PairFindingsModel::State), QStringLiteral("changed"));
+  QCOMPARE(f.text(2, PairFindingsModel::Change), QStringLiteral("same"));
+  QCOMPARE(f.text(2, PairFindingsModel::State), QStringLiteral("accepted"));
 }
 
 void PairFindingsModelTest::whatAHiddenPartHadIsNotListed() {

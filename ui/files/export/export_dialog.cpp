@@ -22,7 +22,8 @@
 namespace nearfit::ui {
 namespace {
 
-const QString kKindKey = QStringLiteral("export/kind"), kUnitKey = QStringLiteral("export/metresPerUnit");
+const QString kKindKey = QStringLiteral("export/kind"), kUnitKey = QStringLiteral("export/metresPerUnit"),
+              kSchemaKey = QStringLiteral("export/stepSchema");
 
 struct ExportUnit {
   const char* name;
@@ -82,7 +83,7 @@ void ExportDialog::setUpFields() {
   add(tr("Assembly (glTF binary, GLB)"), ExportKind::AssemblyGlb);
   add(tr("Assembly (3MF)"), ExportKind::AssemblyThreeMf);
   add(tr("Assembly (URDF, fixed joints)"), ExportKind::AssemblyUrdf);
-  add(tr("Assembly (STEP, AP214)"), ExportKind::AssemblyStep);
+  add(tr("Assembly (STEP)"), ExportKind::AssemblyStep);
   visible_ = new QRadioButton(tr("All &visible"), this);
   chosen_ = new QRadioButton(tr("&Selected (%1)").arg(selected_.size()), this);
   visible_->setObjectName(QStringLiteral("exportVisible"));
@@ -92,6 +93,11 @@ void ExportDialog::setUpFields() {
   unit_->setObjectName(QStringLiteral("exportUnit"));
   for (const ExportUnit& unit : kUnits)
     unit_->addItem(tr(unit.name), unit.metres);
+  schema_ = new QComboBox(this);
+  schema_->setObjectName(QStringLiteral("exportSchema"));
+  schema_->setToolTip(tr("Schema of a STEP file: AP214 is read by all CAD systems, AP242 is its successor"));
+  schema_->addItem(tr("AP214"), static_cast<int>(StepSchema::Ap214));
+  schema_->addItem(tr("AP242"), static_cast<int>(StepSchema::Ap242));
   summary_ = new QLabel(this);
   summary_->setObjectName(QStringLiteral("exportSummary"));
   summary_->setWordWrap(true);
@@ -108,6 +114,9 @@ void ExportDialog::setUpFields() {
   unitLabel_ = new QLabel(tr("&Unit"), this);
   unitLabel_->setBuddy(unit_);
   form->addRow(unitLabel_, unit_);
+  schemaLabel_ = new QLabel(tr("S&chema"), this);
+  schemaLabel_->setBuddy(schema_);
+  form->addRow(schemaLabel_, schema_);
   form->addRow(tr("What is written"), summary_);
   auto* column = new QVBoxLayout(this);
   column->addLayout(form);
@@ -118,20 +127,24 @@ void ExportDialog::restore() {
   const QSettings settings;
   const int kind = kind_->findData(settings.value(kKindKey, 0).toInt());
   const int unit = unit_->findData(settings.value(kUnitKey, 1e-3).toDouble());
+  const int schema = schema_->findData(settings.value(kSchemaKey, 0).toInt());
   kind_->setCurrentIndex(std::max(kind, 0));
   unit_->setCurrentIndex(std::max(unit, 0));
+  schema_->setCurrentIndex(std::max(schema, 0));
 }
 
 void ExportDialog::remember() const {
   QSettings settings;
   settings.setValue(kKindKey, kind_->currentData());
   settings.setValue(kUnitKey, unit_->currentData());
+  settings.setValue(kSchemaKey, schema_->currentData());
 }
 
 SceneExport ExportDialog::choice() const {
   SceneExport what;
   what.kind = static_cast<ExportKind>(kind_->currentData().toInt());
   what.metresPerUnit = unit_->currentData().toDouble();
+  what.schema = static_cast<StepSchema>(schema_->currentData().toInt());
   if (chosen_->isChecked()) what.only = selected_;
   what.map = {mapSubject(scene_, selected_), Preferences::clearanceRange(), Preferences::hasNearClearances()};
   return what;
@@ -144,6 +157,8 @@ void ExportDialog::showSummary() {
   const bool isMap = kind == ExportKind::ClearanceMapPly || kind == ExportKind::ClearanceHistogramCsv;
   for (QWidget* field : {static_cast<QWidget*>(unit_), static_cast<QWidget*>(unitLabel_)})
     field->setEnabled(hasUnitOfChoice(kind));
+  for (QWidget* field : {static_cast<QWidget*>(schema_), static_cast<QWidget*>(schemaLabel_)})
+    field->setEnabled(kind == ExportKind::AssemblyStep);
   for (QWidget* field : {static_cast<QWidget*>(partsLabel_), static_cast<QWidget*>(visible_)})
     field->setEnabled(hasParts);
   chosen_->setEnabled(hasParts && !selected_.empty());

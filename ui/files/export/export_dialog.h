@@ -11,7 +11,7 @@ class QRadioButton;
 
 namespace nearfit::ui {
 
-/// Asks what to export (format, parts, unit), and says what the file will hold. Remembers the choices from
+/// Asks what to export (format, parts, unit, schema of a STEP file), and says what the file will hold. Remembers the choices from
 /// one time to the next.
 class ExportDialog : public QDialog {
   Q_OBJECT
@@ -38,9 +38,9 @@ class ExportDialog : public QDialog {
 
   const Scene scene_;
   const std::vector<PartId> selected_;
-  QComboBox *kind_, *unit_;
+  QComboBox *kind_, *unit_, *schema_;
   QRadioButton *visible_, *chosen_;
-  QLabel *unitLabel_, *partsLabel_, *summary_;
+  QLabel *unitLabel_, *schemaLabel_, *partsLabel_, *summary_;
 };
 
 }  // namespace nearfit::ui

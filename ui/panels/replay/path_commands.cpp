@@ -17,7 +17,6 @@
 #include "core/path/path_file.h"
 #include "core/path/path_thinning.h"
 #include "core/path/swept_volume.h"
-#include "core/report/mesh_export.h"
 #include "ui/panels/replay/path_dialogs.h"
 #include "ui/panels/replay/replay.h"
 #include "ui/panels/replay/timeline.h"
@@ -52,18 +51,6 @@ AssemblyPath improved(const Scene& scene, AssemblyPath path, const PathWishes& w
   if (wishes.smooth)
     path = smoothed(path, certifier, *wishes.smooth, stageCallback(progress, kThinned, 1.0)).path;
   return path;
-}
-
-/// Writes the space that the parts pass as a mesh of one part, in the unit of length that the user chose.
-void writeSwept(const Scene& scene, const AssemblyPath& path, double resolution, double metresPerUnit,
-                const std::filesystem::path& file, const ProgressCallback& progress) {
-  const auto geometry = std::make_shared<PartGeometry>();
-  geometry->mesh = sweptVolume(scene, path, resolution, progress);
-  Part part;
-  part.name = "Swept volume";
-  part.geometry = geometry;
-  const std::vector<Scene::PartPtr> parts{std::make_shared<const Part>(std::move(part))};
-  exportMesh(parts, MeshFileKind::StlBinary, metresPerUnit, file);
 }
 
 QString partName(const Scene& scene, PartId id) {
@@ -112,11 +99,15 @@ PathCommands::PathCommands(const Context& context, QWidget* window)
   menu_->addSeparator();
   forMotion_ << add("exportPathCsv", tr("Export p&oses…"), tr("Write the poses as a table (CSV)"),
                     &PathCommands::exportCsv)
+             << add("exportPathClearance", tr("Export clearances…"),
+                    tr("Write the clearance to each part near the path as a table (CSV)"),
+                    &PathCommands::exportClearance)
              << add("exportPathGltf", tr("Export &animation…"),
                     tr("Write the scene with the moving part as a glTF animation"),
                     &PathCommands::exportAnimation)
              << add("exportSwept", tr("Export swept &volume…"),
-                    tr("Write the space that the part passes as a mesh (STL)"), &PathCommands::exportSwept);
+                    tr("Write the space that the part passes as a mesh (STL, OBJ, PLY)"),
+                    &PathCommands::exportSwept);
   context_.timeline.setPathMenu(menu_);
   const auto follow = [this] {
     certified_ = nullptr;
@@ -343,6 +334,22 @@ void PathCommands::exportCsv() {
       [this, file = *file] { noteExported(file); });
 }
 
+void PathCommands::exportClearance() {
+  const QString attempt = tr("The clearances could not be exported.");
+  const std::optional<AssemblyPath> path = rangedPath();
+  if (!path) return;
+  const Scene scene = context_.session.scene();
+  const auto range = orTell(attempt, [&] { return kClearanceRange * pathBodies(scene, *path).radius; });
+  const auto file =
+      range ? askForFile(tr("Export clearances"), tr("Tables (*.csv)"), QStringLiteral("csv")) : std::nullopt;
+  if (!file) return;
+  const auto work = [scene, path = *path, range = *range,
+                     to = toPath(*file)](const ProgressCallback& progress) {
+    atomicWrite(to, pathClearanceCsv(scene, path, clearancesAlong(scene, path, range, progress)));
+  };
+  run(tr("Finding clearances"), attempt, work, [this, file = *file] { noteExported(file); });
+}
+
 void PathCommands::exportAnimation() {
   const std::optional<AssemblyPath> path = rangedPath();
   if (!path) return;
@@ -362,12 +369,16 @@ void PathCommands::exportSwept() {
   const auto offered = orTell(attempt, [&] { return defaultSweptResolution(scene, *path); });
   const auto resolution = offered ? askForResolution(*offered, window_) : std::nullopt;
   if (!resolution) return;
-  const auto file = askForFile(tr("Export swept volume"), tr("STL files (*.stl)"), QStringLiteral("stl"));
+  const auto file = askForSave({tr("Export swept volume"),
+                                Preferences::lastFolder() + QStringLiteral("/path.stl"),
+                                {tr("STL files (*.stl)"), tr("OBJ files (*.obj)"), tr("PLY files (*.ply)")},
+                                {QStringLiteral("stl"), QStringLiteral("obj"), QStringLiteral("ply")}},
+                               window_);
   if (!file) return;
   const LengthUnit unit = shownLengthUnit();
   const auto work = [scene, path = *path, resolution = *resolution, metres = metresOf(unit),
                      to = toPath(*file)](const ProgressCallback& progress) {
-    writeSwept(scene, path, resolution, metres, to, progress);
+    writeSweptVolume(scene, path, resolution, metres, to, progress);
   };
   run(tr("Making the swept volume"), attempt, work, [this, file = *file, unit] {
     Preferences::rememberFolderOf(file);

@@ -81,6 +81,7 @@ class PathCommands : public QObject {
   void showCertified();
   void saveCertificate();
   void exportCsv();
+  void exportClearance();
   void exportAnimation();
   void exportSwept();
   void followSession();

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/parallel/low_priority.h"
 #include "core/path/path_file.h"
 #include "core/scene/drawn_pose.h"
 #include "core/scene/moving_body.h"
@@ -103,14 +104,18 @@ void PathSuggestion::search(const SuggestionRequest& request) {
       tr("Searching"), tr("Looking for a path of %1").arg(shortName(nameOfMoving(search->scene))), window_);
   connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
   connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
-  task_.run([search](const ProgressCallback& progress) { search->run(progress); },
-            [this, search](const std::exception_ptr& error) {
-              delete progress_;
-              update();
-              if (!error) return show(*search);
-              if (isCancelled(error)) return emit noted(tr("The search was cancelled"));
-              emit failed(describe(tr("No path could be searched."), error));
-            });
+  const auto job = [search](const ProgressCallback& progress) {
+    // The view goes first, and a servo.
+    lowerThreadPriority();
+    search->run(progress);
+  };
+  task_.run(job, [this, search](const std::exception_ptr& error) {
+    delete progress_;
+    update();
+    if (!error) return show(*search);
+    if (isCancelled(error)) return emit noted(tr("The search was cancelled"));
+    emit failed(describe(tr("No path could be searched."), error));
+  });
   update();
 }
 

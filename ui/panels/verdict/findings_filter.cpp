@@ -23,6 +23,21 @@ bool isShownBy(VerdictFilter filter, const ShownFinding& row) {
   return row.verdict == PairVerdict::Clear;
 }
 
+bool isShownBy(ChangeFilter filter, const ShownFinding& row) {
+  const auto is = [&row](FindingChange change) { return row.change == change; };
+  switch (filter) {
+    case ChangeFilter::All:
+      return true;
+    case ChangeFilter::New:
+      return is(FindingChange::New);
+    case ChangeFilter::Changed:
+      return is(FindingChange::Worse) || is(FindingChange::Better);
+    case ChangeFilter::Gone:
+      break;
+  }
+  return is(FindingChange::Gone);
+}
+
 }  // namespace
 
 FindingsFilter::FindingsFilter(QObject* parent) : QSortFilterProxyModel(parent) {
@@ -40,6 +55,11 @@ void FindingsFilter::setVerdict(VerdictFilter verdict) {
   invalidateFilter();
 }
 
+void FindingsFilter::setChange(ChangeFilter change) {
+  change_ = change;
+  invalidateFilter();
+}
+
 void FindingsFilter::setState(std::optional<FindingState> state) {
   state_ = state;
   invalidateFilter();
@@ -49,7 +69,8 @@ bool FindingsFilter::filterAcceptsRow(int row, const QModelIndex&) const {
   const ShownFinding& finding = static_cast<const PairFindingsModel*>(sourceModel())->at(row);
   const auto has = [this](const QString& text) { return text.contains(text_, Qt::CaseInsensitive); };
   const bool isNamed = text_.isEmpty() || has(finding.part) || has(finding.other) || has(finding.reason);
-  return isNamed && isShownBy(verdict_, finding) && (!state_ || finding.state == *state_);
+  return isNamed && isShownBy(verdict_, finding) && isShownBy(change_, finding) &&
+         (!state_ || finding.state == *state_);
 }
 
 }  // namespace nearfit::ui

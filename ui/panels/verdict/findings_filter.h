@@ -4,7 +4,7 @@
 #include <QString>
 #include <optional>
 
-#include "core/scene/pair_record.h"
+#include "core/verdict/finding_states.h"
 
 namespace nearfit::ui {
 
@@ -18,7 +18,15 @@ enum class VerdictFilter {
   Clear,  ///< Findings of the last check that are gone.
 };
 
-/// Sorts a PairFindingsModel, and leaves out rows by text, verdict and state.
+/// Changes since the last check that a table of findings shows.
+enum class ChangeFilter {
+  All,
+  New,
+  Changed,  ///< Worse or better.
+  Gone,
+};
+
+/// Sorts a PairFindingsModel, and leaves out rows by text, verdict, change and state.
 class FindingsFilter : public QSortFilterProxyModel {
   Q_OBJECT
 
@@ -28,6 +36,7 @@ class FindingsFilter : public QSortFilterProxyModel {
   /// Shows rows with this in a part's name or the reason, in any case; empty: all.
   void setText(const QString& text);
   void setVerdict(VerdictFilter verdict);
+  void setChange(ChangeFilter change);
   /// @param state  std::nullopt: all.
   void setState(std::optional<FindingState> state);
 
@@ -37,6 +46,7 @@ class FindingsFilter : public QSortFilterProxyModel {
  private:
   QString text_;
   VerdictFilter verdict_ = VerdictFilter::All;
+  ChangeFilter change_ = ChangeFilter::All;
   std::optional<FindingState> state_;
 };
 

@@ -25,6 +25,7 @@
 #include "ui/panels/verdict/findings_filter.h"
 #include "ui/panels/verdict/rules_dialog.h"
 #include "ui/view3d/viewport.h"
+#include "ui/widgets/column_widths.h"
 #include "ui/widgets/font_scale.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/make_action.h"
@@ -43,6 +44,9 @@ const QString kCheckThresholdKey = QStringLiteral("sceneCheck/threshold");
 constexpr double kFirstCheckThreshold = 1e-3, kMaxCheckThreshold = 1e3, kCheckThresholdStep = 1e-4;
 constexpr int kCheckThresholdDecimals = 4;
 constexpr int kCheckPercent = 100;
+/// Max widths that names and the other columns ask for [pixels at the usual font]: some 35 and 25 letters, beyond which names
+/// only tell parts apart at their end, and a reason is read in its tool tip.
+constexpr int kMaxNameWidth = 240, kMaxWordsWidth = 170;
 
 /// Room around the marks that the camera goes to, as a share of their size, and their min size as a share of
 /// the scene: a tiny clash alone would fill the view without saying where it is.
@@ -160,6 +164,20 @@ void SceneCheckPanel::setUpFields() {
     sorted_->setVerdict(static_cast<VerdictFilter>(verdicts_->currentData().toInt()));
     showState();
   });
+  changed_ = new QComboBox(this);
+  changed_->setObjectName(QStringLiteral("sceneCheckChanges"));
+  changed_->setAccessibleName(tr("Changes listed"));
+  changed_->setToolTip(tr("List only findings that differ so from the last check"));
+  const std::pair<QString, ChangeFilter> changes[] = {{tr("Old and new"), ChangeFilter::All},
+                                                      {tr("New since"), ChangeFilter::New},
+                                                      {tr("Changed since"), ChangeFilter::Changed},
+                                                      {tr("Gone since"), ChangeFilter::Gone}};
+  for (const auto& [name, change] : changes)
+    changed_->addItem(name, static_cast<int>(change));
+  connect(changed_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
+    sorted_->setChange(static_cast<ChangeFilter>(changed_->currentData().toInt()));
+    showState();
+  });
   states_ = new QComboBox(this);
   states_->setObjectName(QStringLiteral("sceneCheckStates"));
   states_->setAccessibleName(tr("States listed"));
@@ -185,12 +203,13 @@ void SceneCheckPanel::setUpTable() {
   table_->sortByColumn(PairFindingsModel::Verdict, Qt::DescendingOrder);
   table_->setMinimumSize(forFont(*table_, 360), forFont(*table_, 60));
   QHeaderView* header = table_->horizontalHeader();
-  header->setSectionResizeMode(QHeaderView::ResizeToContents);
-  header->setSectionResizeMode(PairFindingsModel::First, QHeaderView::Stretch);
-  header->setSectionResizeMode(PairFindingsModel::Second, QHeaderView::Stretch);
-  header->setSectionResizeMode(PairFindingsModel::Reason, QHeaderView::Stretch);
   header->setMinimumSectionSize(forFont(*table_, 60));
   header->setHighlightSections(false);
+  const ColumnWidths::Column names{forFont(*table_, kMaxNameWidth), true},
+      words{forFont(*table_, kMaxWordsWidth), false};
+  std::vector<ColumnWidths::Column> columns(PairFindingsModel::ColumnCount, words);
+  columns[PairFindingsModel::First] = columns[PairFindingsModel::Second] = names;
+  new ColumnWidths(*table_, columns);
   connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &SceneCheckPanel::choose);
   connect(table_, &QTableView::activated, this, &SceneCheckPanel::framePlace);
 }
@@ -269,6 +288,7 @@ void SceneCheckPanel::setUpLayout() {
   auto* filters = new QHBoxLayout;
   filters->addWidget(text_, 1);
   filters->addWidget(verdicts_);
+  filters->addWidget(changed_);
   filters->addWidget(states_);
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(note_, 1);

@@ -112,7 +112,7 @@ class SceneCheckPanel : public QWidget {
   QAction* action_;
   NumberField* threshold_;
   QLineEdit* text_;
-  QComboBox *verdicts_, *states_;
+  QComboBox *verdicts_, *changed_, *states_;
   QProgressBar* progress_;
   QLabel *summary_, *note_;
   QPushButton *check_, *cancel_, *rules_, *accept_, *fixed_, *reopen_, *ruleForPair_, *export_;

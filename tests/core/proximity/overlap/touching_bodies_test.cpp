@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/proximity/hierarchy/normal_cone_tree.h"
+#include "core/proximity/overlap/interference.h"
 #include "tests/support/mesh_generators.h"
 
 namespace nearfit::touching_bodies_test {
@@ -20,7 +21,9 @@ RigidTransform at(double x, double y, double z) {
 /// A cube of side 1 about the origin, and a part.
 bool doesTouchCube(const TriangleMesh& part, const RigidTransform& pose) {
   const NormalConeTree cube(test::boxMesh(glm::dvec3(1.0))), tree(part);
-  return doOnlyTouch(cube, tree, pose, kTolerance);
+  const bool doesTouch = doOnlyTouch(cube, tree, pose, kTolerance);
+  EXPECT_EQ(doOnlyTouch(cube, tree, pose, kTolerance, findInterference(cube, tree, pose)), doesTouch);
+  return doesTouch;
 }
 
 TEST(TouchingBodies, FlushFacesTouchAndPenetrationByAMicrometreDoesNot) {

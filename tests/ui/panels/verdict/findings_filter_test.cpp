@@ -51,6 +51,7 @@ class FindingsFilterTest : public QObject {
  private slots:
   void textIsSoughtInNamesAndReasons();
   void verdictsAndStatesAreChosenTogether();
+  void changesSinceTheLastCheckAreChosen();
 };
 
 void FindingsFilterTest::textIsSoughtInNamesAndReasons() {
@@ -80,6 +81,27 @@ void FindingsFilterTest::verdictsAndStatesAreChosenTogether() {
   QCOMPARE(f.names(), QStringList{QStringLiteral("Cover")});
   f.filter.setVerdict(VerdictFilter::Clear);
   QCOMPARE(f.names(), QStringList{QStringLiteral("Bolt")});
+}
+
+void FindingsFilterTest::changesSinceTheLastCheckAreChosen() {
+  Filtered f;
+  std::vector<ShownFinding> rows;
+  const std::pair<const char*, std::optional<FindingChange>> changes[] = {
+      {"New", FindingChange::New},       {"Worse", FindingChange::Worse}, {"Same", FindingChange::Same},
+      {"Better", FindingChange::Better}, {"Gone", FindingChange::Gone},   {"Kept", std::nullopt}};
+  for (const auto& [name, change] : changes) {
+    rows.push_back(finding(name, PairVerdict::Near, FindingState::New, ""));
+    rows.back().change = change;
+  }
+  f.model.show(rows);
+  f.filter.setChange(ui::ChangeFilter::New);
+  QCOMPARE(f.names(), QStringList{QStringLiteral("New")});
+  f.filter.setChange(ui::ChangeFilter::Changed);
+  QCOMPARE(f.names(), (QStringList{QStringLiteral("Worse"), QStringLiteral("Better")}));
+  f.filter.setChange(ui::ChangeFilter::Gone);
+  QCOMPARE(f.names(), QStringList{QStringLiteral("Gone")});
+  f.filter.setChange(ui::ChangeFilter::All);
+  QCOMPARE(f.names().size(), 6);
 }
 
 NEARFIT_QT_SUITE(FindingsFilterTest, test::runQtTest<FindingsFilterTest>)
