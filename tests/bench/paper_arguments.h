@@ -43,6 +43,13 @@ Jump jumpBetween(const SpringMode& mode, const RigidTransform& from, const Rigid
 /// Halvings of a motion: what is left is smooth to 1/4096 of what it was.
 constexpr int kHalvings = 12;
 
+/// Springs of a pose that the pose before had not, by their features, and that are no deeper within the cutoff than the
+/// motion between the two explains: born at the cutoff. Of each its push where 1 N is that of a spring pressed all the
+/// way: 1 - distance / cutoff.
+/// @param motion  No point of the part moved farther [m].
+std::vector<double> onsetsAtCutoff(const ContactAnswer& before, const ContactAnswer& after, double cutoff,
+                                   double motion);
+
 struct ArgumentOptions {
   std::size_t ticks = 1000;      ///< Of the hand's path, at 1 kHz.
   double speed = 0.1;            ///< Of the hand along its path [m/s]; the larger body's diagonal is 1 m.

@@ -1,5 +1,6 @@
 #include "tests/bench/paper_figures.h"
 
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ PaperFigure paperFigure(const FigureHead& head, std::string method, std::string 
   for (double& sample : samples)
     sample *= scale;
   const SampleSummary summary(std::move(samples));
-  figure.mean = summary.mean();
+  figure.mean = figure.samples > 0 ? summary.mean() : std::numeric_limits<double>::quiet_NaN();
   figure.p50 = summary.percentile(0.5);
   figure.p90 = summary.percentile(0.9);
   figure.p99 = summary.percentile(0.99);
@@ -34,11 +35,11 @@ std::string figureTable(std::span<const PaperFigure> figures) {
     const std::string title = f.setting.empty() ? fmt::format("{}, {}", f.part, f.scene)
                                                 : fmt::format("{}, {}, {}", f.part, f.scene, f.setting);
     if (title != last) {
-      out += fmt::format("\n{:<60}{:>8}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}\n", title, "samples", "mean",
+      out += fmt::format("\n{:<70}{:>8}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}\n", title, "samples", "mean",
                          "p50", "p90", "p99", "p99.9", "max");
     }
     last = title;
-    out += fmt::format("{:<22}{:<38}{:>8}{:>12.4g}{:>12.4g}{:>12.4g}{:>12.4g}{:>12.4g}{:>12.4g}\n", f.method,
+    out += fmt::format("{:<22}{:<48}{:>8}{:>12.4g}{:>12.4g}{:>12.4g}{:>12.4g}{:>12.4g}{:>12.4g}\n", f.method,
                        f.quantity, f.samples, f.mean, f.p50, f.p90, f.p99, f.p999, f.max);
   }
   return out;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include <glm/geometric.hpp>
@@ -12,15 +11,33 @@
 namespace nearfit::bench {
 namespace {
 
-using std::numbers::pi;
-
-/// Added to angles and lengths that prune, over their rounding [rad, and of the lengths in play].
-constexpr double kPruningPad = 1e-6;
+/// Added to lengths that prune, over their rounding [of the lengths in play].
+constexpr double kPruningPad = 1e-9;
+/// Taken off cosines that prune: no direction is lost that kSpanTolerance takes in.
+constexpr double kCosinePad = 2.0 * kSpanTolerance;
 /// Normals closer than this are one [length of their difference].
 constexpr double kSameNormal = 1e-9;
 
-double angleBetween(const glm::dvec3& a, const glm::dvec3& b) noexcept {
-  return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
+/// Cosine and sine of an angle from 0 to pi.
+struct Angle {
+  double cosine, sine;
+};
+
+/// True if an angle of that cosine is surely larger than a + b.
+bool isBeyond(double cosine, const Angle& a, const Angle& b) noexcept {
+  // Together at least half a turn: nothing is.
+  if (a.cosine + b.cosine <= 0.0) return false;
+  return cosine < a.cosine * b.cosine - a.sine * b.sine - kCosinePad;
+}
+
+Angle halfAngleOf(const PaperHierarchy::Node& node) noexcept {
+  return {node.cosHalf, node.sinHalf};
+}
+
+/// True if a unit direction lies in a leaf's cone, to within kSpanTolerance.
+bool isInCone(const glm::dvec3& direction, const PaperHierarchy::Node& leaf) noexcept {
+  const double angle = std::acos(std::clamp(glm::dot(direction, leaf.axis), -1.0, 1.0));
+  return angle <= std::atan2(leaf.sinHalf, leaf.cosHalf) + kSpanTolerance;
 }
 
 glm::dvec3 unitOrZero(const glm::dvec3& v) noexcept {
@@ -120,6 +137,23 @@ bool isPierced(const glm::dvec3 (&face)[3], const glm::dvec3 (&edges)[3]) noexce
   return false;
 }
 
+/// True if one triangle's plane, or one square to it along a side, is surely farther than the cutoff from all of the
+/// other triangle: much quicker than their distance.
+bool isApart(const glm::dvec3 (&face)[3], const glm::dvec3 (&other)[3], double cutoff) noexcept {
+  const glm::dvec3 normal = glm::cross(face[1] - face[0], face[2] - face[0]);
+  const auto isBeyondPlane = [&](const glm::dvec3& n, const glm::dvec3& origin, bool bothSides) {
+    const double x = glm::dot(n, other[0] - origin), y = glm::dot(n, other[1] - origin),
+                 z = glm::dot(n, other[2] - origin);
+    const double reach = cutoff * (1.0 + kPruningPad) * glm::length(n);
+    return std::min({x, y, z}) > reach || (bothSides && std::max({x, y, z}) < -reach);
+  };
+  if (isBeyondPlane(normal, face[0], true)) return true;
+  for (int k = 0; k < 3; ++k) {
+    if (isBeyondPlane(glm::cross(face[(k + 1) % 3] - face[k], normal), face[k], false)) return true;
+  }
+  return false;
+}
+
 /// True if d lies on the arc between two unit normals, or at its ends.
 bool isOnArc(const glm::dvec3& d, const glm::dvec3& a, const glm::dvec3& b) noexcept {
   const glm::dvec3 across = glm::cross(a, b);
@@ -159,9 +193,10 @@ std::vector<glm::dvec3> distinct(std::span<const glm::dvec3> normals) {
 TrianglesNear nearestOf(const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3]) noexcept {
   TrianglesNear best{std::numeric_limits<double>::infinity(), {}, {}, 0, 0};
   const auto offer = [&best](const glm::dvec3& p, const glm::dvec3& q, int placeOnA, int placeOnB) {
-    const double distance = glm::distance(p, q);
-    if (distance < best.distance)
-      best = {distance, p, q, static_cast<std::uint8_t>(placeOnA), static_cast<std::uint8_t>(placeOnB)};
+    const glm::dvec3 between = q - p;
+    const double squared = glm::dot(between, between);
+    if (squared < best.distance)
+      best = {squared, p, q, static_cast<std::uint8_t>(placeOnA), static_cast<std::uint8_t>(placeOnB)};
   };
   const auto placeOnEdge = [](int k, int place) { return place == 2 ? 3 + k : (k + place) % 3; };
   for (int i = 0; i < 3; ++i) {
@@ -176,6 +211,7 @@ TrianglesNear nearestOf(const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3]) noex
     const auto [onA, placeOnA] = nearestOnTriangle(b[k], a);
     if (placeOnA == 6) offer(onA, b[k], placeOnA, k);
   }
+  best.distance = std::sqrt(best.distance);
   if (best.distance > 0.0 && (isPierced(a, b) || isPierced(b, a))) best.distance = 0.0;
   return best;
 }
@@ -317,7 +353,8 @@ void PaperHierarchy::setBounds(Builder& builder, Node& node, std::size_t begin, 
     });
   };
   node.axis = {0.0, 0.0, 1.0};
-  node.halfAngle = pi;
+  node.cosHalf = -1.0;
+  node.sinHalf = 0.0;
   if (rule_ != PaperRule::AllPairs) {
     glm::dvec3 sum(0.0);
     bool hasAll = true;
@@ -331,7 +368,8 @@ void PaperHierarchy::setBounds(Builder& builder, Node& node, std::size_t begin, 
       node.axis = sum / length;
       double leastCosine = 1.0;
       eachNormal([&](const glm::dvec3& n) { leastCosine = std::min(leastCosine, glm::dot(n, node.axis)); });
-      node.halfAngle = std::acos(std::max(leastCosine, -1.0));
+      node.cosHalf = std::max(leastCosine, -1.0);
+      node.sinHalf = std::sqrt(std::max(0.0, 1.0 - node.cosHalf * node.cosHalf));
     }
   }
   builder.scratch.assign({axes[0], mean});
@@ -409,12 +447,13 @@ bool PaperQuery::isPruned(const PaperHierarchy::Node& a, const PaperHierarchy::N
   if (distance - radii > pose.cutoff) return true;
   if (scene_.rule() == PaperRule::AllPairs) return false;
   const glm::dvec3 axisOfB = pose.rotation * b.axis;
-  if (angleBetween(a.axis, -axisOfB) > a.halfAngle + b.halfAngle + kPruningPad) return true;
+  const Angle halfA = halfAngleOf(a), halfB = halfAngleOf(b);
+  if (isBeyond(-glm::dot(a.axis, axisOfB), halfA, halfB)) return true;
   if (distance <= radii) return false;
-  const double span = std::asin(radii / distance) + kPruningPad;
-  const glm::dvec3 direction = between / distance;
-  return angleBetween(a.axis, direction) > a.halfAngle + span ||
-         angleBetween(axisOfB, -direction) > b.halfAngle + span;
+  const double sine = radii / distance;
+  const Angle span{std::sqrt(std::max(0.0, 1.0 - sine * sine)), sine};
+  return isBeyond(glm::dot(a.axis, between) / distance, halfA, span) ||
+         isBeyond(-glm::dot(axisOfB, between) / distance, halfB, span);
 }
 
 void PaperQuery::testLeaves(std::uint32_t a, std::uint32_t b, const PaperHierarchy::Node& leafA,
@@ -425,6 +464,7 @@ void PaperQuery::testLeaves(std::uint32_t a, std::uint32_t b, const PaperHierarc
     cornersA[k] = scene_.mesh().vertices()[scene_.mesh().triangles()[a][k]];
     cornersB[k] = pose.rotation * part_.mesh().vertices()[part_.mesh().triangles()[b][k]] + pose.translation;
   }
+  if (isApart(cornersA, cornersB, pose.cutoff) || isApart(cornersB, cornersA, pose.cutoff)) return;
   const TrianglesNear near = nearestOf(cornersA, cornersB);
   if (!(near.distance > 0.0)) {
     isTouching_ = true;
@@ -446,10 +486,7 @@ void PaperQuery::testLeaves(std::uint32_t a, std::uint32_t b, const PaperHierarc
 bool PaperQuery::isAccepted(const PaperMinimum& minimum, const PaperHierarchy::Node& leafA,
                             const PaperHierarchy::Node& leafB, const Posed& pose) const {
   const glm::dvec3 toScene = glm::transpose(pose.rotation) * -minimum.direction;  // In the part's frame.
-  if (angleBetween(leafA.axis, minimum.direction) > leafA.halfAngle + kSpanTolerance ||
-      angleBetween(leafB.axis, toScene) > leafB.halfAngle + kSpanTolerance) {
-    return false;
-  }
+  if (!isInCone(minimum.direction, leafA) || !isInCone(toScene, leafB)) return false;
   return scene_.rule() == PaperRule::NormalCones ||
          (scene_.isInSpanOf(minimum.sceneFeature, minimum.direction) &&
           part_.isInSpanOf(minimum.partFeature, toScene));

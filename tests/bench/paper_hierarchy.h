@@ -71,10 +71,10 @@ class PaperHierarchy {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
   struct Node {
-    glm::dvec3 centre;  ///< Of the sphere [m].
-    double radius;      ///< [m]
-    glm::dvec3 axis;    ///< Of the cone; unit.
-    double halfAngle;   ///< Of the cone, up to pi [rad].
+    glm::dvec3 centre;        ///< Of the sphere [m].
+    double radius;            ///< [m]
+    glm::dvec3 axis;          ///< Of the cone; unit.
+    double cosHalf, sinHalf;  ///< Of the cone's half angle, from 0 to pi.
     std::uint32_t left = kNone, right = kNone;
     std::uint32_t triangle = kNone;  ///< Of a leaf.
     bool isLeaf() const noexcept { return triangle != kNone; }

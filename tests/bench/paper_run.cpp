@@ -7,6 +7,8 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "core/base/error.h"
 #include "core/proximity/query/lmd_query.h"
@@ -189,6 +191,9 @@ constexpr std::array<std::size_t, 7> kTriangles{512, 2048, 8192, 32768, 131072, 
 /// Of the bowl's inner wall: near enough that all around the lowest place is within the cutoff, far from conforming.
 constexpr double kBallInBowl = 0.8;
 
+/// So that no facets are parallel.
+const glm::dquat kAnyTurn = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1.0, 2.0, 3.0)));
+
 /// Two lumpy bodies of as many triangles each.
 BenchScene lumpyPair(std::size_t triangles) {
   const auto frequency = static_cast<std::uint32_t>(
@@ -198,9 +203,9 @@ BenchScene lumpyPair(std::size_t triangles) {
           test::transformed(part, 1.0 / part.bounds().diagonal()), std::nullopt, std::nullopt};
 }
 
-/// A ball near the bottom of a bowl, the bowl with two thirds of the triangles.
+/// A ball near the bottom of a bowl, each with half of the triangles.
 BenchScene ballInBowl(std::size_t triangles) {
-  // 4 s r faces of the bowl with r = s / 4, and 2 s (2 r - 1) of the ball: some 2 s^2.
+  // 4 s r faces of the bowl and 2 s (2 r - 1) of the ball, s = 4 r: some 32 r^2.
   const auto rings =
       static_cast<std::uint32_t>(std::max(2.0, std::round(std::sqrt(static_cast<double>(triangles) / 32.0))));
   const std::uint32_t segments = 4 * rings;
@@ -210,7 +215,7 @@ BenchScene ballInBowl(std::size_t triangles) {
   // Off the axis, so that no minimum is there by symmetry alone.
   const glm::dvec3 low{0.03, 0.02, -0.9 * (1.0 - kBallInBowl)};
   return {"ball-bowl", test::transformed(bowl, scale), test::transformed(ball, scale),
-          RigidTransform{{1.0, 0.0, 0.0, 0.0}, scale * low}, 0.1 * (1.0 - kBallInBowl)};
+          RigidTransform{kAnyTurn, scale * low}, 0.1 * (1.0 - kBallInBowl)};
 }
 
 constexpr std::array<SweptBody, 2> kBodies{{{"lumpy", lumpyPair}, {"ball-bowl", ballInBowl}}};
