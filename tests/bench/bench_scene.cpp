@@ -109,6 +109,8 @@ std::vector<SceneEntry> sharedScenes(const fs::path& folder) {
                  sphere = paper / "sphere_128.obj";
   // Of gear_6302.ply [m].
   constexpr Bore kBore{0.005, 0.02};
+  // Of the crankshaft's diagonal: passes between its webs.
+  constexpr double kDiscSize = 0.3;
   return {
       pair("paper-bunny-sphere", "2,204 and 128 triangles", paper / "bunny_2204.ply", sphere),
       pair("paper-spring-teapot", "23,578 and 5,648 triangles", paper / "spring_23578.ply",
@@ -117,6 +119,13 @@ std::vector<SceneEntry> sharedScenes(const fs::path& folder) {
        [=] {
          return discInBore("paper-gear-disc", importedMesh(gear), kBore,
                            importedMesh(paper / "disc_512.stl"));
+       }},
+      {"paper-crankshaft-disc", "12,802 and 512 triangles",
+       [=] {
+         BenchScene scene = unitPair("paper-crankshaft-disc", importedMesh(crankshaft),
+                                     importedMesh(paper / "disc_512.stl"));
+         scene.part = test::transformed(scene.part, kDiscSize);
+         return scene;
        }},
       pair("paper-gear-gear", "6,302 triangles each", gear, gear),
       pair("paper-crankshaft-gear", "12,802 and 6,302 triangles", crankshaft, gear),

@@ -36,7 +36,8 @@ struct SceneEntry {
 /// Scenes of generated meshes; the same on every machine.
 std::vector<SceneEntry> generatedScenes();
 
-/// The paper's six pairs and one of scans, from the folder of shared models (`models/public` in it is read).
+/// The four pairs of the paper's appendix, three more of their meshes and one of scans, from the folder of shared
+/// models (`models/public` in it is read).
 /// Throws FileError, when a scene is made, for a file that is not there.
 std::vector<SceneEntry> sharedScenes(const std::filesystem::path& folder);
 

@@ -16,6 +16,7 @@ void addPathCommand(CLI::App& program);
 void addSuggestCommand(CLI::App& program);
 void addFeelCommand(CLI::App& program);
 void addErrorCommand(CLI::App& program);
+void addPaperCommand(CLI::App& program);
 void addSkipsCommand(CLI::App& program);
 void addImportCommand(CLI::App& program);
 

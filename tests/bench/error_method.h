@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -64,11 +65,14 @@ struct ErrorMethodEntry {
   /// Whether its answers are exact for the meshes that it was given.
   bool isExact = false;
   std::function<std::unique_ptr<ErrorMethod>(const ErrorScene&)> make;
+  /// Beyond so many triangles of both meshes it is not asked: it would take minutes a pose.
+  std::size_t maxTriangles = std::numeric_limits<std::size_t>::max();
 };
 
 std::vector<ErrorMethodEntry> exactErrorMethods();
 std::vector<ErrorMethodEntry> approximateErrorMethods();
 std::vector<ErrorMethodEntry> fieldErrorMethods();
+std::vector<ErrorMethodEntry> paperErrorMethods();
 std::vector<ErrorMethodEntry> fclErrorMethods();  ///< Where the program is built with FCL.
 
 /// All that this program is built with, the exact ones first.

@@ -111,6 +111,7 @@ std::vector<ErrorMethodEntry> allErrorMethods() {
   };
   append(approximateErrorMethods());
   append(fieldErrorMethods());
+  append(paperErrorMethods());
 #ifdef NEARFIT_BENCH_FCL
   append(fclErrorMethods());
 #endif

@@ -34,9 +34,12 @@ struct Lane {
 
 /// Made side by side: that takes longer than what is measured, and is not timed.
 std::vector<Lane> lanesOf(std::span<const ErrorMethodEntry> methods, const ErrorScene& scene) {
+  const BenchScene& meshes = scene.bodies.meshes;
+  const std::size_t triangles = meshes.scene.triangles().size() + meshes.part.triangles().size();
   std::vector<Lane> lanes;
-  for (const ErrorMethodEntry& entry : methods)
-    lanes.push_back({&entry, nullptr});
+  for (const ErrorMethodEntry& entry : methods) {
+    if (triangles <= entry.maxTriangles) lanes.push_back({&entry, nullptr});
+  }
   parallelFor(lanes.size(), [&](std::size_t i) { lanes[i].method = lanes[i].entry->make(scene); });
   return lanes;
 }

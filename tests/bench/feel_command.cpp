@@ -45,7 +45,7 @@ std::vector<FeelEntry> feelScenes(const FeelOptions& options) {
   return chosen(entries, options.scenes, "--scenes");
 }
 
-/// The paper's six pairs where they are; else pairs of generated meshes like them.
+/// Pairs of the paper's meshes where they are; else pairs of generated meshes like them.
 std::vector<SceneEntry> pairScenes(const FeelOptions& options) {
   const bool isShared = !options.shared.empty();
   std::vector<SceneEntry> entries = isShared ? sharedScenes(options.shared) : generatedScenes();

@@ -57,7 +57,7 @@ struct Block {
 void walkBlock(QueryLane& lane, const Block& block, const RunOptions& options) {
   const std::size_t begin = (block.begin + lane.stride - 1) / lane.stride * lane.stride;
   if (begin >= block.end) return;
-  // A method that lists pairs remembers nothing: one pose will do to warm the caches.
+  // A slow method remembers nothing: one pose will do to warm the caches.
   const std::size_t warmUp = lane.stride > 1 ? std::min<std::size_t>(options.warmUp, 1) : options.warmUp;
   for (std::size_t i = begin - std::min(begin, warmUp); i < begin; ++i) {
     lane.query->query(block.path[i]);
@@ -94,7 +94,7 @@ std::vector<MethodRun> runInterleaved(std::span<const MethodEntry> methods, cons
                                       std::span<const RigidTransform> path, const RunOptions& options) {
   std::vector<QueryLane> lanes;
   for (const MethodEntry& method : methods) {
-    const std::size_t stride = method.kind == AnswerKind::Pairs ? options.pairsStride : 1;
+    const std::size_t stride = isSlow(method.kind) ? options.pairsStride : 1;
     lanes.push_back({method.make(scene), stride, MethodRun{&method, {}, {}, {}, {}}});
     lanes.back().run.times.reserve(path.size() * options.rounds);
     lanes.back().run.answers.reserve(path.size());

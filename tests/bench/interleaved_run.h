@@ -15,7 +15,7 @@ struct RunOptions {
   std::size_t block = 100;       ///< Poses that a method answers before the next has its turn.
   std::size_t warmUp = 5;        ///< Poses before each block that are answered but not timed.
   std::size_t rounds = 1;        ///< Times the whole path is walked.
-  std::size_t pairsStride = 40;  ///< Methods that list pairs answer each so-many-th pose only.
+  std::size_t pairsStride = 40;  ///< Slow methods (isSlow) answer each so-many-th pose only.
   /// Time from one query to the next [s], as a servo has it, so that a method's other threads have theirs; 0:
   /// back to back.
   double period = 0.0;

@@ -18,6 +18,7 @@ void addCommands(CLI::App& program, int, char**) {
   nearfit::bench::addSuggestCommand(program);
   nearfit::bench::addFeelCommand(program);
   nearfit::bench::addErrorCommand(program);
+  nearfit::bench::addPaperCommand(program);
   nearfit::bench::addSkipsCommand(program);
   nearfit::bench::addImportCommand(program);
 }

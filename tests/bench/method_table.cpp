@@ -30,6 +30,7 @@ PreparedScene::PreparedScene(BenchScene bodies, double cutoffFraction)
 
 std::vector<MethodEntry> allMethods() {
   std::vector<MethodEntry> all = nearfitMethods();
+  append(all, paperMethods());
 #ifdef NEARFIT_BENCH_FCL
   append(all, fclMethods());
 #endif

@@ -48,11 +48,11 @@ std::vector<SceneEntry> scenesOf(const QueryOptions& options) {
   return chosen(all, options.scenes, "--scenes");
 }
 
-/// Without a choice: all but those that list pairs, which take up to seconds a pose.
+/// Without a choice: all but the slow ones.
 std::vector<MethodEntry> methodsOf(const QueryOptions& options) {
   std::vector<MethodEntry> all = allMethods();
   if (!options.methods.empty()) return chosen(all, options.methods, "--methods");
-  std::erase_if(all, [](const MethodEntry& method) { return method.kind == AnswerKind::Pairs; });
+  std::erase_if(all, [](const MethodEntry& method) { return isSlow(method.kind); });
   return all;
 }
 
@@ -139,7 +139,8 @@ void addSceneOptions(CLI::App& command, QueryOptions& o) {
   command.add_flag("--list", o.isList, "Say which scenes and methods there are, and measure nothing");
   command.add_option("--scenes", o.scenes, "Built-in scenes, with commas between; all of them by default")
       ->delimiter(',');
-  command.add_option("--shared", o.sharedFolder, "Folder of shared models: adds the six paper-* pairs")
+  command
+      .add_option("--shared", o.sharedFolder, "Folder of shared models: adds the paper's pairs and others")
       ->check(CLI::ExistingDirectory);
   CLI::Option* scene =
       command.add_option("--scene", o.sceneFile, "Mesh that stays, instead of built-in scenes");
@@ -178,7 +179,8 @@ void addPathOptions(CLI::App& command, QueryOptions& o) {
 
 void addRunOptions(CLI::App& command, QueryOptions& o) {
   command
-      .add_option("--methods", o.methods, "With commas between, or all; by default all but those of pairs")
+      .add_option("--methods", o.methods,
+                  "With commas between, or all; by default all but those of pairs and of the paper")
       ->delimiter(',');
   command.add_option("--baseline", o.baseline, "Method that ratios refer to")->capture_default_str();
   command.add_option("--block", o.run.block, "Poses a method answers before the next has its turn")
@@ -192,7 +194,8 @@ void addRunOptions(CLI::App& command, QueryOptions& o) {
   command.add_flag("--best", o.isBest,
                    "Take each pose's least time of all rounds (on a machine that others use)");
   command
-      .add_option("--pairs-stride", o.run.pairsStride, "Methods of pairs answer each so-many-th pose only")
+      .add_option("--pairs-stride", o.run.pairsStride,
+                  "Methods of pairs and of the paper answer each so-many-th pose only")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command

@@ -40,7 +40,14 @@ enum class AnswerKind {
   FullSet,   ///< All local minimum distances within the cutoff.
   Distance,  ///< The least distance alone, at any distance.
   Pairs,     ///< All pairs of triangles within the cutoff.
+  /// Minima by another rule than the exact one. Takes as long as pairs; its number is compared with nobody's.
+  OtherRule,
 };
+
+/// True for methods that take up to seconds a pose: left out unless asked for, and asked at few poses.
+inline bool isSlow(AnswerKind kind) noexcept {
+  return kind == AnswerKind::Pairs || kind == AnswerKind::OtherRule;
+}
 
 /// One way to answer; keeps what it knows from one pose to the next.
 class QueryMethod {
@@ -70,8 +77,9 @@ struct MethodEntry {
 };
 
 std::vector<MethodEntry> nearfitMethods();
-std::vector<MethodEntry> fclMethods();   ///< Where the program is built with FCL.
-std::vector<MethodEntry> coalMethods();  ///< Where the program is built with Coal.
+std::vector<MethodEntry> paperMethods();  ///< The paper's algorithm: paper_hierarchy.h.
+std::vector<MethodEntry> fclMethods();    ///< Where the program is built with FCL.
+std::vector<MethodEntry> coalMethods();   ///< Where the program is built with Coal.
 
 /// All that this program is built with, Nearfit's first.
 std::vector<MethodEntry> allMethods();
