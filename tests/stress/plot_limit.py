@@ -11,7 +11,9 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 def rows(path):
     with open(path, newline="") as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        # Of the proxy; older tables have no other mode, and no column for it.
+        return [{key: float(value) for key, value in row.items() if key != "mode"}
+                for row in csv.DictReader(file) if row.get("mode", "proxy") == "proxy"]
 
 
 def main(source, picture):
