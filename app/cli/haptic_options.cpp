@@ -68,6 +68,9 @@ void addModeOptions(OptionAdder& adder, HapticOptions& options, const HapticSett
   adder.add("--stiffness", options.stiffness, "K", defaults.springs.stiffness,
             "Stiffness of each spring [N/m], or [N/m^2] in the printed mode");
   adder.add("--damping", options.damping, "B", defaults.springs.damping, "Damping of each spring [N s/m]");
+  adder.addFlag(
+      "--one-per-area,!--no-one-per-area", options.onePerArea,
+      "Springs: one for each area of contact, at its nearest minimum, instead of one for each minimum");
   adder.add("--margin", options.margin, "METRES", "1 % of the cutoff",
             "Proxy: gap that the part keeps in contact [m]");
   adder.add("--friction", options.friction, "MU", defaults.proxy.friction,
@@ -181,6 +184,7 @@ HapticSettings withOptions(HapticSettings settings, const HapticOptions& options
   take(options.cutoff, settings.springs.cutoff);
   take(options.stiffness, settings.springs.stiffness);
   take(options.damping, settings.springs.damping);
+  settings.springs.onePerArea = options.onePerArea.value_or(settings.springs.onePerArea);
   take(options.margin, settings.proxy.margin);
   take(options.friction, settings.proxy.friction);
   take(options.scale, settings.mapping.scale);

@@ -16,7 +16,7 @@ struct HapticOptions {
   std::optional<std::string> mode, gravity, orientation, locks;
   std::optional<double> cutoff, stiffness, damping, margin, friction, scale;
   std::optional<double> couplingStiffness, couplingDamping, rotationalStiffness, rotationalDamping;
-  std::optional<bool> hasWeight, hasInertia;
+  std::optional<bool> onePerArea, hasWeight, hasInertia;
 };
 
 /// Adds the options to a command, in their own group.

@@ -52,16 +52,20 @@ std::string extentText(const RegionExtent& extent) {
                      numberText(extent.halfWidth));
 }
 
-std::string lmdText(const Lmd& lmd) {
+/// @param tellsMerged  Minima of an area of contact have been merged.
+std::string lmdText(const Lmd& lmd, bool tellsMerged) {
   const std::string extent = lmd.isRegion ? ",\"extent\":" + extentText(lmd.extent) : "";
+  const std::string merged = tellsMerged ? fmt::format(",\"merged\":{}", lmd.isMerged) : "";
   return fmt::format(
-      R"({{"distance":{},"scene":{},"part":{},"features":["{}","{}"],"region":{}{},"blocked":{},"marginal":{}}})",
+      R"({{"distance":{},"scene":{},"part":{},"features":["{}","{}"],"region":{}{},"blocked":{},"marginal":{}{}}})",
       numberText(lmd.distance), vectorText(lmd.scenePoint), vectorText(lmd.partPoint),
-      nameOf(lmd.sceneFeature), nameOf(lmd.partFeature), lmd.isRegion, extent, lmd.isBlocked, lmd.isMarginal);
+      nameOf(lmd.sceneFeature), nameOf(lmd.partFeature), lmd.isRegion, extent, lmd.isBlocked, lmd.isMarginal,
+      merged);
 }
 
 /// Returns the output line of a pose. Throws Error if minima were left out or the wrench is not finite.
-std::string poseLine(std::size_t pose, const LmdSet& set, const Wrench& wrench, InterferenceKind overlap) {
+std::string poseLine(std::size_t pose, const LmdSet& set, const Wrench& wrench, InterferenceKind overlap,
+                     bool tellsMerged) {
   const std::string where = fmt::format("pose {}", pose);
   if (!set.isComplete) {
     throw Error(where, fmt::format("there are more than {} minima within the cutoff", kMaxLmds),
@@ -72,7 +76,7 @@ std::string poseLine(std::size_t pose, const LmdSet& set, const Wrench& wrench, 
   }
   std::string text = fmt::format(R"({{"pose":{},"lmds":[)", pose);
   for (std::size_t i = 0; i < set.lmds.size(); ++i)
-    text += (i == 0 ? "" : ",") + lmdText(set.lmds[i]);
+    text += (i == 0 ? "" : ",") + lmdText(set.lmds[i], tellsMerged);
   return text + fmt::format("],\"force\":{},\"torque\":{},\"overlap\":\"{}\",\"query_us\":{}}}\n",
                             vectorText(wrench.force), vectorText(wrench.torque), nameOf(overlap),
                             numberText(1e6 * set.queryTime));
@@ -147,13 +151,14 @@ void runLmd(const LmdOptions& options) {
   LmdCollector collector(kMaxLmds);
   std::vector<std::size_t> overlapping;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const LmdSet set = options.mode == "tracked"
-                           ? collector.collectTracked(trees.scene(), trees.part(), poses[i], springs.cutoff)
-                           : collector.collect(trees.scene(), trees.part(), poses[i], springs.cutoff);
+    LmdSet set = options.mode == "tracked"
+                     ? collector.collectTracked(trees.scene(), trees.part(), poses[i], springs.cutoff)
+                     : collector.collect(trees.scene(), trees.part(), poses[i], springs.cutoff);
+    if (springs.onePerArea) collector.mergeByArea(trees.scene(), trees.part(), poses[i], springs.cutoff, set);
     const glm::dvec3 centre = poses[i].applyToPoint(part->mass.centre);
     const InterferenceKind overlap = findInterference(trees.scene(), trees.part(), poses[i]).kind;
     if (overlap != InterferenceKind::Disjoint) overlapping.push_back(i);
-    print(poseLine(i, set, springWrench(set.lmds, springs, centre, {}), overlap));
+    print(poseLine(i, set, springWrench(set.lmds, springs, centre, {}), overlap, springs.onePerArea));
   }
   if (!overlapping.empty()) printError(overlapNote(overlapping, poses.size()));
 }
@@ -177,7 +182,11 @@ lmds      All local minimum distances within the cutoff, nearest first. "scene" 
           between faces has dimension 2 and its area [m^2]; one of an edge with an edge or face has
           dimension 1 and its length [m]. "half": half lengths [m], along the axis and across it, of the
           rectangle with the same second moments of area.
-force     Sum of the spring forces on the part [N], without those of blocked minima, in the scene mesh's
+          With --one-per-area each minimum also has "merged": true if a nearer one stands for its area of
+          contact: their directions differ by at most 30 degrees, and at a quarter, half and three quarters
+          of the way between them either surface is at most a twentieth of the cutoff farther off than at the
+          farther one.
+force     Sum of the spring forces on the part [N], without those of blocked and merged minima, in the scene mesh's
           frame; torque [N m] about the part's centre of mass. Nothing moves, so damping has no effect.
 overlap   How the bodies overlap, decided exactly: "no", "surfaces meet" (or touch), "inside the other" (the
           part in the scene mesh), "the other inside". Minima do not tell how far; the set may be empty. A
@@ -233,6 +242,8 @@ void addLmdCommand(CLI::App& program) {
                    "K (cutoff - d) d")
       ->check(CLI::IsMember({"linear", "printed"}))
       ->capture_default_str();
+  command->add_flag("--one-per-area", options->springs.onePerArea,
+                    "One spring for each area of contact, at its nearest minimum (see \"merged\" below)");
   command
       ->add_option("--mode", options->mode,
                    "cold searches each pose from scratch; tracked follows the part from pose to pose, as the "

@@ -29,6 +29,11 @@ void take(const MotionRow& row, PlaceResult& result, MotionWriter* writer) {
   result.lateTicks += row.lateBodies > 0 ? 1 : 0;
   result.truncatedTicks += row.isTruncated ? 1 : 0;
   result.maxLmds = std::max(result.maxLmds, row.lmds);
+  result.maxAreas = std::max(result.maxAreas, row.areas);
+  result.heldTicks += row.springShares.isHeld() ? 1 : 0;
+  result.leastShares = {std::min(result.leastShares.force, row.springShares.force),
+                        std::min(result.leastShares.torque, row.springShares.torque),
+                        std::min(result.leastShares.damping, row.springShares.damping)};
   if (row.distance < result.leastDistance) {
     result.leastDistance = row.distance;
     result.isLeastDistanceBound = row.isDistanceBound;

@@ -50,6 +50,9 @@ struct PlaceResult {
   std::uint64_t lateTicks = 0;  ///< Searched for themselves because the lists were not ready.
   std::uint64_t lostRows = 0;   ///< Missing in the record, and in the figures taken from rows.
   std::uint32_t maxLmds = 0;
+  std::uint32_t maxAreas = 0;         ///< Minima that hold a spring at once; springs modes only.
+  std::uint64_t heldTicks = 0;        ///< Springs held back to what the device bears.
+  SpringShares leastShares;           ///< Smallest of each part of the springs that was rendered.
   double leastDistance = 0.0;         ///< [m]; infinity if nothing came within the cutoff.
   bool isLeastDistanceBound = false;  ///< `leastDistance` is a lower bound.
   double leastDistanceTime = 0.0;     ///< [s]

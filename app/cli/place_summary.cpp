@@ -60,8 +60,9 @@ std::string modeText(const HapticSettings& haptics) {
   }
   const SpringParameters& springs = haptics.springs;
   const bool isPrinted = springs.law == SpringLaw::Printed;
-  return fmt::format("{}, {:.6g} {} and {:.6g} N s/m within {:.6g} m", modeName(haptics), springs.stiffness,
-                     isPrinted ? "N/m^2" : "N/m", springs.damping, springs.cutoff);
+  return fmt::format("{}, {:.6g} {} and {:.6g} N s/m within {:.6g} m{}", modeName(haptics), springs.stiffness,
+                     isPrinted ? "N/m^2" : "N/m", springs.damping, springs.cutoff,
+                     springs.onePerArea ? ", one spring for each area of contact" : "");
 }
 
 std::string summaryLine(const char* name, const std::string& text) {
@@ -107,6 +108,31 @@ std::string proxyText(const PlaceSummary& s) {
         "behind", fmt::format("{} ticks ended before the part's way; it goes on in the next", r.behindTicks));
   }
   return text + summaryLine("proxy", timesText(r.proxyTime));
+}
+
+/// Returns the lines that only the spring modes have.
+std::string springsText(const PlaceSummary& s) {
+  const PlaceResult& r = s.result;
+  std::string text;
+  if (s.parameters.haptics.springs.onePerArea)
+    text += summaryLine("areas", fmt::format("max {} at once", r.maxAreas));
+  if (r.heldTicks > 0) {
+    text +=
+        summaryLine("held", fmt::format("springs stiffer than the device bears in {} ticks: force down to "
+                                        "{:.3g} of the law's, torque to {:.3g}",
+                                        r.heldTicks, r.leastShares.force, r.leastShares.torque));
+  }
+  return text;
+}
+
+nlohmann::ordered_json springsJson(const PlaceSummary& s) {
+  const PlaceResult& r = s.result;
+  return {{"one_per_area", s.parameters.haptics.springs.onePerArea},
+          {"max_areas", r.maxAreas},
+          {"held_ticks", r.heldTicks},
+          {"least_force_share", r.leastShares.force},
+          {"least_torque_share", r.leastShares.torque},
+          {"least_damping_share", r.leastShares.damping}};
 }
 
 nlohmann::ordered_json proxyJson(const PlaceSummary& s) {
@@ -168,7 +194,7 @@ std::string summaryText(const PlaceSummary& s) {
   text += summaryLine("force", fmt::format("peak {:.6g} N at {:.3f} s", r.force.value, r.force.time));
   text += summaryLine("torque", fmt::format("peak {:.6g} N m at {:.3f} s", r.torque.value, r.torque.time));
   text += summaryLine("energy", fmt::format("max {:.6g} J given to the hand", r.maxEnergyToHand));
-  if (s.parameters.haptics.mode == HapticMode::Proxy) text += proxyText(s);
+  text += s.parameters.haptics.mode == HapticMode::Proxy ? proxyText(s) : springsText(s);
   if (r.clampedTicks > 0)
     text += summaryLine("clamped", fmt::format("force or torque in {} ticks", r.clampedTicks));
   if (r.truncatedTicks > 0) {
@@ -212,6 +238,7 @@ std::string summaryJson(const PlaceSummary& s) {
                               {"peak_torque", r.torque.value},
                               {"max_energy_to_hand", r.maxEnergyToHand},
                               {"proxy", nullptr},
+                              {"springs", nullptr},
                               {"clamped_ticks", r.clampedTicks},
                               {"truncated_ticks", r.truncatedTicks},
                               {"late_ticks", r.lateTicks},
@@ -228,6 +255,7 @@ std::string summaryJson(const PlaceSummary& s) {
   if (std::isfinite(r.leastDistance)) json["least_distance"] = r.leastDistance;
   json["least_distance_is_bound"] = r.isLeastDistanceBound;
   if (s.parameters.haptics.mode == HapticMode::Proxy) json["proxy"] = proxyJson(s);
+  if (s.parameters.haptics.mode == HapticMode::Springs) json["springs"] = springsJson(s);
   if (!r.schedulingNote.empty()) {
     json["lateness_us"] = timesJson(r.lateness);
     json["overruns"] = r.overruns;

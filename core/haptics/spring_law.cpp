@@ -22,7 +22,7 @@ Wrench springWrench(std::span<const Lmd> lmds, const SpringParameters& parameter
                     const glm::dvec3& centreOfMass, const Twist& twist) noexcept {
   Wrench sum;
   for (const Lmd& lmd : lmds) {
-    if (lmd.isBlocked) continue;
+    if (lmd.isBlocked || lmd.isMerged) continue;
     const glm::dvec3 arm = lmd.partPoint - centreOfMass;
     const glm::dvec3 velocity = twist.linear + glm::cross(twist.angular, arm);
     const glm::dvec3 force = pushOf(lmd, parameters, velocity) * lmd.direction;

@@ -20,6 +20,8 @@ struct SpringParameters {
   double stiffness = 200.0;  ///< [N/m] (Linear), [N/m^2] (Printed); >= 0.
   double damping = 0.0;      ///< Along each minimum's direction [N s/m]; >= 0. Never pulls.
   SpringLaw law = SpringLaw::Linear;
+  /// One spring for each area of contact, at its nearest minimum (mergeAreas()), instead of one for each minimum.
+  bool onePerArea = false;
   bool operator==(const SpringParameters&) const = default;
 };
 
@@ -30,7 +32,7 @@ struct SpringParameters {
 /// @param lmds          Minima; points and directions in one frame F.
 /// @param centreOfMass  Of the moving part, in F [m]. Torque is about it.
 /// @param twist         Of the moving part relative to the scene, in F.
-/// Minima at or beyond the cutoff and blocked ones contribute nothing. NaN or infinity in any other input
+/// Minima at or beyond the cutoff, blocked and merged ones contribute nothing. NaN or infinity in any other input
 /// propagates to the wrench. Real-time safe. O(minima). Source: Johnson & Willemsen 2003, 4.3; rest
 /// length = cutoff.
 Wrench springWrench(std::span<const Lmd> lmds, const SpringParameters& parameters,

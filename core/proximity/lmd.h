@@ -62,6 +62,9 @@ struct Lmd {
   /// within rounding or within the resolution of tolerances.h. It may be none, or a neighbouring feature may
   /// carry it. An unmarked minimum meets all conditions in exact arithmetic.
   bool isMarginal = false;
+  /// True if a nearer minimum stands for the area of contact that both belong to. Only mergeAreas sets it. Such a
+  /// minimum exerts no force.
+  bool isMerged = false;
   RegionExtent extent;  ///< Valid if isRegion.
 };
 

@@ -45,6 +45,7 @@ HapticSettings withPreset(const HapticSettings& settings, const FeelPreset& pres
   next.springs.cutoff = settings.springs.cutoff;
   if (preset.isOfStiffnessAlone) {
     next.springs = withLaw(next.springs, settings.springs.law);
+    next.springs.onePerArea = settings.springs.onePerArea;
     return next;
   }
   next.mode = preset.settings.mode;

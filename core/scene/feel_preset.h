@@ -15,7 +15,7 @@ namespace nearfit {
 struct FeelPreset {
   std::string name;
   HapticSettings settings;
-  /// If true, the preset sets stiffness and coupling alone: the scene keeps its mode, law, friction, weight
+  /// If true, the preset sets stiffness and coupling alone: the scene keeps its mode, law, choice of springs, friction, weight
   /// and inertia. The stiffness is that of the linear law and is converted for another law (withLaw). True
   /// for the usual presets.
   bool isOfStiffnessAlone = false;

@@ -14,7 +14,8 @@
 ///       "haptics": {
 ///         "mode": "proxy",                                   or "springs": the part is at the handle
 ///         "springs": {"cutoff": 0.01, "stiffness": 200, "damping": 0,
-///                     "law": "linear"},                      or "printed"
+///                     "law": "linear",                       or "printed"
+///                     "onePerArea": true},                   optional, false if not there: a spring for each area of contact
 ///         "proxy": {"margin": 1e-4, "friction": 0},
 ///         "coupling": {"automatic": true,                    if true, the numbers below are kept but unused
 ///                      "stiffness": 1000, "damping": 0, "rotationalStiffness": 1, "rotationalDamping": 0},
@@ -87,7 +88,7 @@
 ///       }]
 ///     }
 ///
-/// All keys are required. Unknown keys are ignored, and lost when the scene is saved. Numbers have enough
+/// All keys but those marked as optional are required. Unknown keys are ignored, and lost when the scene is saved. Numbers have enough
 /// digits to read back as the same double. For the meaning and limits of the settings see haptic_settings.h
 /// and haptic_limits.h.
 ///

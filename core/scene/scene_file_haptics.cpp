@@ -44,6 +44,7 @@ SpringParameters readSprings(const JsonField& field) {
   springs.stiffness = field.at("stiffness").number();
   springs.damping = field.at("damping").number();
   springs.law = isFirstOf(field.at("law"), "linear", "printed") ? SpringLaw::Linear : SpringLaw::Printed;
+  if (field.has("onePerArea")) springs.onePerArea = field.at("onePerArea").isTrue();
   return springs;
 }
 
@@ -88,10 +89,13 @@ HapticSettings checked(const JsonField& field, const HapticSettings& settings) {
 }
 
 Json springsJson(const SpringParameters& springs) {
-  return {{"cutoff", springs.cutoff},
-          {"stiffness", springs.stiffness},
-          {"damping", springs.damping},
-          {"law", springs.law == SpringLaw::Printed ? "printed" : "linear"}};
+  Json json{{"cutoff", springs.cutoff},
+            {"stiffness", springs.stiffness},
+            {"damping", springs.damping},
+            {"law", springs.law == SpringLaw::Printed ? "printed" : "linear"}};
+  // Without it the file is as former programs write it.
+  if (springs.onePerArea) json["onePerArea"] = true;
+  return json;
 }
 
 Json couplingJson(const CouplingSettings& coupling) {

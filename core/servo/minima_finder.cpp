@@ -27,8 +27,8 @@ MinimaFinder::Question MinimaFinder::questionOf(const TrackedScene& tracked,
                                                 const MinimaAllowance& allowance) noexcept {
   const glm::dvec3& t = worldFromPart.translation;
   const glm::dquat& r = worldFromPart.rotation;
-  Question question{tracked.serial, allowance.search, allowance.merge};
-  std::size_t at = 3;
+  Question question{tracked.serial, allowance.search, allowance.merge, allowance.areas};
+  std::size_t at = 4;
   for (const double number : {t.x, t.y, t.z, r.w, r.x, r.y, r.z, lengths[0], lengths[1]})
     question[at++] = std::bit_cast<std::uint64_t>(number);
   return question;
@@ -41,6 +41,7 @@ void MinimaFinder::begin(const Question& question, const MinimaAllowance& allowa
   displayCount_ = 0;
   displayWasCut_ = false;
   left_ = allowance;
+  mergesAreas_ = allowance.areas > 0;
   nodePairsLeft_ = std::min(kMaxNodePairs, allowance.search);
   result_ = {};
   result_.distance = result_.completeTo = std::numeric_limits<double>::infinity();
@@ -107,6 +108,7 @@ std::span<const Lmd> MinimaFinder::findOne(const Task& task, const RigidTransfor
   const std::span<Lmd> found = room.first(result.count);
   markBlocked(body.geometry->tree(), task.scene.moving.geometry->tree(), bodyFromPart, found, task.apart,
               scratch_);
+  mergeByArea(task, bodyFromPart, cutoff, found);
   for (Lmd& lmd : found) {
     lmd = transformed(lmd, body.worldFromPart);
     result_.distance = std::min(result_.distance, lmd.distance);
@@ -116,6 +118,20 @@ std::span<const Lmd> MinimaFinder::findOne(const Task& task, const RigidTransfor
   if (result.status == QueryStatus::Truncated) result_.isTruncated = true;
   keepForDisplay(task, found);
   return found;
+}
+
+void MinimaFinder::mergeByArea(const Task& task, const RigidTransform& bodyFromPart, double cutoff,
+                               std::span<Lmd> found) noexcept {
+  if (!mergesAreas_) {
+    result_.areas += static_cast<std::uint32_t>(found.size());
+    return;
+  }
+  const AreaResult merged =
+      mergeAreas(task.scene.bodies[task.body].geometry->tree(), task.scene.moving.geometry->tree(),
+                 bodyFromPart, cutoff, found, scratch_, left_.areas);
+  left_.areas -= std::min(left_.areas, merged.work);
+  result_.areas += merged.areas;
+  result_.work += merged.work;
 }
 
 void MinimaFinder::keepForDisplay(const Task& task, std::span<const Lmd> found) noexcept {

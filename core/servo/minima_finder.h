@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/proximity/query/contact_areas.h"
 #include "core/proximity/query/lmd_query.h"
 #include "core/servo/servo_snapshot.h"
 #include "core/servo/tracked_scene.h"
@@ -17,10 +18,13 @@ namespace nearfit {
 struct MinimaAllowance {
   std::uint64_t search = 0;  ///< For pairs of nodes and features; exceeded by kSearchBatch at most.
   std::uint64_t merge = 0;   ///< For merging minima and pieces of regions, and pairs of them.
+  std::uint64_t areas = 0;   ///< For merging the minima of an area of contact (mergeAreas()); 0: none are.
 
   static constexpr std::uint64_t kSearchBatch = 128;
   /// Upper bound on the total work.
-  constexpr std::uint64_t most() const noexcept { return search + kSearchBatch + merge; }
+  constexpr std::uint64_t most() const noexcept {
+    return search + kSearchBatch + merge + (areas > 0 ? areas + kMaxAreaExcess : 0);
+  }
 };
 
 /// Work of one minimum or piece of a region: it is merged, and tested against what may block it. Pieces are
@@ -57,12 +61,16 @@ class MinimaFinder {
   static constexpr std::uint64_t kMaxNodePairs = 1U << 15;
   /// For springs, whose force depends on the minima: as much as lists and work space hold.
   static constexpr MinimaAllowance kFelt{1U << 20, mostMergeWork(LmdScratch::kDefaultCapacity)};
+  /// The same with one spring for each area of contact. Some hundred minima take a hundredth of it; of thousands the
+  /// farthest keep their own springs.
+  static constexpr MinimaAllowance kFeltByArea{kFelt.search, kFelt.merge, 1U << 20};
   /// For minima that are only shown: on a slow core some 0.3 ms of search and 0.3 ms of merging, enough for 130
   /// pieces; and where contacts have taken most of the tick's time.
   static constexpr MinimaAllowance kShown{3U << 11, 3U << 11}, kShownInFullTick{1U << 10, 1U << 11};
 
   struct Result {
-    std::uint32_t count = 0;       ///< Minima found, of all bodies.
+    std::uint32_t count = 0;  ///< Minima found, of all bodies.
+    std::uint32_t areas = 0;  ///< Areas of contact of these; `count` without merging, blocked ones then too.
     std::uint32_t lateBodies = 0;  ///< Bodies searched anew, since no list covered the pose.
     bool isTruncated = false;      ///< Minima may be missing.
     bool isPoseBad = false;        ///< The pose of a body is invalid.
@@ -82,6 +90,9 @@ class MinimaFinder {
   /// Finds the minima within the cutoff, with an allowance of work for all bodies together. Beyond the
   /// allowance minima are left out, the nearest last, and the result says truncated.
   ///
+  /// With an allowance for areas, of the minima of an area of contact of one body all but the nearest are marked as
+  /// merged; beyond that allowance the farthest minima are not.
+  ///
   /// Calls feel(span of minima in world coordinates) once for each body that may be near; the span may be
   /// empty. Minima come from the lists where they cover the pose, else from a search bounded by
   /// kMaxNodePairs. Far bodies cost nothing. If nothing has changed since the last call (the tracked scene by
@@ -90,7 +101,7 @@ class MinimaFinder {
   /// @param cutoff     [m]; finite, > 0.
   /// @param apart      Lower bound on the distance to the bodies that do not overlap the part
   ///                   [m]; 0 if unknown.
-  /// @param allowance  kFelt, or kShown if no force depends on the minima.
+  /// @param allowance  kFelt or kFeltByArea, or kShown if no force depends on the minima.
   /// Real-time safe.
   template <class Feel>
   Result find(const TrackedScene& tracked, const RigidTransform& worldFromPart, double cutoff, double apart,
@@ -121,7 +132,7 @@ class MinimaFinder {
 
  private:
   /// Everything that a result depends on, bit for bit: +0 and -0 differ.
-  using Question = std::array<std::uint64_t, 12>;
+  using Question = std::array<std::uint64_t, 13>;
   /// @param lengths  Cutoff, and lower bound on the distance [m].
   static Question questionOf(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                              const std::array<double, 2>& lengths, const MinimaAllowance& allowance) noexcept;
@@ -141,6 +152,9 @@ class MinimaFinder {
   std::span<const Lmd> findOne(const Task& task, const RigidTransform& worldFromPart, double cutoff) noexcept;
   LmdResult search(const Task& task, const RigidTransform& bodyFromPart, double cutoff,
                    std::span<Lmd> out) noexcept;
+  /// Marks those for whose area of contact another one stands.
+  void mergeByArea(const Task& task, const RigidTransform& bodyFromPart, double cutoff,
+                   std::span<Lmd> found) noexcept;
   void keepForDisplay(const Task& task, std::span<const Lmd> found) noexcept;
 
   LmdScratch scratch_;
@@ -154,7 +168,7 @@ class MinimaFinder {
   std::size_t displayCount_ = 0;
   MinimaAllowance left_;
   std::uint64_t nodePairsLeft_ = 0;
-  bool displayWasCut_ = false;
+  bool displayWasCut_ = false, mergesAreas_ = false;
   Result result_;
 };
 

@@ -40,6 +40,8 @@ MotionRow motionRow(const ServoSnapshot& s, double lateness) noexcept {
   row.overlapping = s.overlappingCount;
   row.wrenchTime = s.wrenchTime;
   row.isBehind = s.isBehind;
+  row.areas = s.areaCount;
+  row.springShares = s.springShares;
   row.lateness = lateness;
   return row;
 }

@@ -13,7 +13,7 @@
 
 namespace nearfit {
 
-/// What a recording keeps of one tick; trivially copyable. World frame.
+/// What a recording keeps of one tick, and a little more; trivially copyable. World frame.
 struct MotionRow {
   double time = 0.0;      ///< Since the servo started [s].
   RigidTransform handle;  ///< worldFromHandle
@@ -34,6 +34,9 @@ struct MotionRow {
   std::uint32_t overlapping = 0;                                     ///< Parts that the moving part overlaps.
   double wrenchTime = 0.0;                                           ///< Time until the wrench was known [s].
   bool isBehind = false;  ///< The tick's work ended before the proxy's way.
+  /// As in the snapshot; not in the recording.
+  std::uint32_t areas = 0;
+  SpringShares springShares;
   double lateness = 0.0;  ///< Delay of the tick after its deadline, or after the report that triggers it [s].
 };
 

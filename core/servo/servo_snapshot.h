@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/haptics/haptic_settings.h"
+#include "core/haptics/spring_bound.h"
 #include "core/haptics/virtual_coupling.h"
 #include "core/haptics/wrench.h"
 #include "core/math/rigid_transform.h"
@@ -64,6 +65,7 @@ struct ServoSnapshot {
   /// stretches its time.
   std::uint64_t work = 0;
   std::uint32_t lmdCount = 0;    ///< All minima found within the cutoff, even those not in `lmds`.
+  std::uint32_t areaCount = 0;   ///< Those of them that are not merged by area of contact.
   std::uint32_t storedLmds = 0;  ///< Entries of `lmds` in use, nearest first for each part.
   /// Bodies searched anew in this tick, since what is known of them did not cover the pose.
   std::uint32_t lateBodies = 0;
@@ -78,6 +80,8 @@ struct ServoSnapshot {
   double period = 0.0;  ///< Measured period that the coupling is computed with [s].
   /// The coupling in force. Proxy mode only, like everything below except the energy and what overlaps.
   CouplingState coupling;
+  /// Parts of the springs' wrench that the device's bound lets through (boundedSprings()). Springs mode only.
+  SpringShares springShares;
   double energyToHand = 0.0;          ///< Net work done on the hand since the start [J].
   double proxyTime = 0.0;             ///< Time of the proxy without its queries [s].
   double wrenchTime = 0.0;            ///< Time until the wrench was known [s].

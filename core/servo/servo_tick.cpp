@@ -64,6 +64,8 @@ void clearOutputs(ServoSnapshot& snapshot) noexcept {
   snapshot.jointCount = 0;
   snapshot.offJoints = {};
   snapshot.coupling = {};
+  snapshot.springShares = {};
+  snapshot.areaCount = 0;
 }
 
 }  // namespace
@@ -77,6 +79,7 @@ void ServoTick::reset() noexcept {
   held_ = {};
   guidance_.reset();
   pull_ = {};
+  springShares_ = {};
   hasPose_ = false;
   shownReach_.reset();
   isToBeShown_ = false;
@@ -119,6 +122,7 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
     const bool hasNewMode = hasPose_ && settings.mode != mode_;
     if (hasNewMode || (input.returnsToPart && hasPose_)) letGo(device, scene.centreInPart);
     if (hasNewMode && conditioner_.isEngaged()) conditioner_.engage();
+    if (hasNewMode) springShares_ = {};
     takePose(tick, mapper_.map(device, input.isClutched, settings.mapping));
     const bool isFelt = input.isArmed && !input.isClutched;
     if (isFelt != conditioner_.isEngaged()) isFelt ? conditioner_.engage() : conditioner_.disengage();
@@ -209,12 +213,18 @@ void ServoTick::writePose(const Subject& subject) const noexcept {
 Wrench ServoTick::feelSprings(const Tick& tick) noexcept {
   movePart(tick, handle_.pose);
   felt_ = part_;
-  Wrench sum{mass_.weight, glm::dvec3(0.0)};
-  findMinima(tick, 1.0, &tick.settings.springs, sum);
+  SpringSum sum{tick.settings.springs};
+  // The last tick's: springs that never pull are not known before their damping is.
+  sum.parameters.damping *= springShares_.damping;
+  findMinima(tick, 1.0, &sum);
+  const SpringShares bounded =
+      boundedSprings(sum.directions, tick.settings.springs, tick.limits, periodMeter_.heldPeriod());
+  springShares_ = risenShares(springShares_, bounded, tick.period);
+  tick.snapshot.springShares = springShares_;
   showOverlaps(tick);
   tick.snapshot.isOverlapUnknown =
       tick.scene.moving.geometry != nullptr && !(tick.tracked.clearanceSpent(part_.pose) < 1.0);
-  return sum;
+  return {mass_.weight + springShares_.force * sum.wrench.force, springShares_.torque * sum.wrench.torque};
 }
 
 bool ServoTick::areBodiesPlaced(const Tick& tick) const noexcept {

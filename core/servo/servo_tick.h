@@ -9,6 +9,7 @@
 #include "core/haptics/haptic_settings.h"
 #include "core/haptics/passivity_controller.h"
 #include "core/haptics/period_meter.h"
+#include "core/haptics/spring_bound.h"
 #include "core/haptics/workspace_mapper.h"
 #include "core/haptics/wrench_conditioner.h"
 #include "core/servo/minima_finder.h"
@@ -30,7 +31,8 @@ struct ServoParameters {
 ///
 /// The device's pose becomes the handle's (WorkspaceMapper). In the proxy mode the part follows the handle as
 /// far as it can (Proxy), and the hand feels the coupling between the two. In the springs mode the part is
-/// where the handle is, and the hand feels the sum of the springs. The wrench is kept passive
+/// where the handle is, and the hand feels the sum of the springs, as far as the device bears it (boundedSprings()). The
+/// wrench is kept passive
 /// (PassivityController) and within the device's limits (WrenchConditioner). When the mode changes, the handle
 /// returns to the part and the force ramps up from zero: the handle may be where only the other mode lets the
 /// part go. In either mode the hand also feels the scene's guidance (GuidanceFollower), if there is one.
@@ -102,6 +104,13 @@ class ServoTick {
     double period;
   };
 
+  /// What the springs of a tick add up to, before what the device bears.
+  struct SpringSum {
+    SpringParameters parameters;
+    Wrench wrench{};
+    SpringDirections directions{};
+  };
+
   void letGo(const RigidTransform& device, const glm::dvec3& centreInPart) noexcept;
   void takePose(const Tick& tick, const RigidTransform& handle) noexcept;
   /// Pull toward the scene's guidance, on the handle as it is.
@@ -115,10 +124,9 @@ class ServoTick {
   RigidTransform withoutLeap(const Tick& tick, const RigidTransform& felt) noexcept;
   /// The proxy's part of a tick, once the wrench is on its way.
   void moveOn(const Subject& subject) noexcept;
-  /// Finds the minima within `share` of the cutoff and writes them to the snapshot. Adds the wrench of
-  /// `springs`, unless null, to `sum`.
-  MinimaFinder::Result findMinima(const Subject& subject, double share, const SpringParameters* springs,
-                                  Wrench& sum) noexcept;
+  /// Finds the minima within `share` of the cutoff and writes them to the snapshot. Adds the wrench of `springs`,
+  /// unless null, and the directions in which they push.
+  MinimaFinder::Result findMinima(const Subject& subject, double share, SpringSum* springs) noexcept;
   void showMinima(const Subject& subject) noexcept;
   /// Min distance according to the contacts if it is within their reach, else infinity [m].
   double distanceOfContacts(const Subject& subject) const noexcept;
@@ -152,7 +160,8 @@ class ServoTick {
   Wrench held_;                             ///< The wrench sent in the last tick.
   FeltMass mass_;
   CouplingState coupling_;
-  ShownReach shownReach_;  ///< Proxy mode only.
+  SpringShares springShares_;  ///< Springs mode only.
+  ShownReach shownReach_;      ///< Proxy mode only.
   PartId moving_{};
   HapticMode mode_ = HapticMode::Proxy;
   bool hasPose_ = false;

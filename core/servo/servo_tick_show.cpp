@@ -74,23 +74,27 @@ void ServoTick::show(const TrackedScene& tracked, const ServoParameters& paramet
 }
 
 MinimaFinder::Result ServoTick::findMinima(const Subject& subject, double share,
-                                           const SpringParameters* springs, Wrench& sum) noexcept {
+                                           SpringSum* springs) noexcept {
   const auto begin = std::chrono::steady_clock::now();
   const glm::dvec3 centre = part_.pose.applyToPoint(subject.scene.centreInPart);
   const double cutoff = share * subject.settings.springs.cutoff;
   // With springs nothing keeps the part from passing through, so no distance can be relied on.
   const double apart = springs == nullptr ? proxy_.distance() : 0.0;
-  const MinimaAllowance allowance = springs != nullptr ? MinimaFinder::kFelt : shownBeside(proxy_.work());
+  const MinimaAllowance allowance = springs == nullptr               ? shownBeside(proxy_.work())
+                                    : springs->parameters.onePerArea ? MinimaFinder::kFeltByArea
+                                                                     : MinimaFinder::kFelt;
   const MinimaFinder::Result result =
       minima_.find(subject.tracked, part_.pose, cutoff, apart, allowance, [&](std::span<const Lmd> lmds) {
         if (springs == nullptr) return;
-        const Wrench wrench = springWrench(lmds, *springs, centre, part_.twist);
-        sum.force += wrench.force;
-        sum.torque += wrench.torque;
+        const Wrench wrench = springWrench(lmds, springs->parameters, centre, part_.twist);
+        springs->wrench.force += wrench.force;
+        springs->wrench.torque += wrench.torque;
+        springs->directions.add(lmds, springs->parameters, centre);
       });
   if (result.isPoseBad) fault_ = ServoFault::PoseNotFinite;
   minima_.write(subject.snapshot);
   if (share < 1.0) subject.snapshot.isTruncated = true;
+  subject.snapshot.areaCount = result.areas;
   subject.snapshot.lateBodies += result.lateBodies;
   subject.snapshot.work += result.work;
   subject.snapshot.queryTime +=
@@ -103,8 +107,7 @@ MinimaFinder::Result ServoTick::findMinima(const Subject& subject, double share,
 
 void ServoTick::showMinima(const Subject& subject) noexcept {
   const double cutoff = subject.settings.springs.cutoff;
-  Wrench none;
-  const MinimaFinder::Result result = findMinima(subject, shownReach_.share(), nullptr, none);
+  const MinimaFinder::Result result = findMinima(subject, shownReach_.share(), nullptr);
   // A minimum that is missing may be nearer than those found, but no nearer than either bound.
   const double known = std::max(result.completeTo, proxy_.distance());
   subject.snapshot.isDistanceBound = known < std::min(result.distance, cutoff);

@@ -1,12 +1,11 @@
-#include <algorithm>
+#include <cstdint>
 #include <iterator>
+#include <limits>
 #include <utility>
 
-#include <glm/geometric.hpp>
-
+#include "core/proximity/query/contact_areas.h"
 #include "core/proximity/query/lmd_query.h"
 #include "tests/bench/error_method.h"
-#include "tests/bench/error_shapes.h"
 #include "tests/bench/tracked_query.h"
 
 namespace nearfit::bench {
@@ -51,34 +50,27 @@ class ExactTracked : public ErrorMethod {
   TrackedQuery query_;
 };
 
-/// Where facets make several minima of one contact, only the nearest counts: of those whose points are within
-/// some edges of each other.
+/// Where facets make several minima of one area of contact, only the nearest counts: as the program has it.
 class ExactGrouped : public ErrorMethod {
  public:
-  explicit ExactGrouped(const ErrorScene& scene)
-      : scene_(scene),
-        query_(scene.bodies),
-        reach_(kReachEdges *
-               std::min(longestEdge(scene.bodies.meshes.scene), longestEdge(scene.bodies.meshes.part))) {}
+  explicit ExactGrouped(const ErrorScene& scene) : scene_(scene), query_(scene.bodies), scratch_(1) {}
 
   void answer(const RigidTransform& sceneFromPart, ContactAnswer& answer) override {
+    const PreparedScene& bodies = scene_.bodies;
     const Answer found = query_.query(sceneFromPart);
-    for (const Lmd& lmd : query_.minima().first(found.count)) {  // Nearest first.
-      const bool isOfOther = std::any_of(answer.minima.begin(), answer.minima.end(), [&](const Lmd& kept) {
-        return glm::distance(kept.scenePoint, lmd.scenePoint) < reach_;
-      });
-      if (!isOfOther) answer.minima.push_back(lmd);
-    }
+    const std::span<const Lmd> lmds = query_.minima().first(found.count);
+    answer.minima.assign(lmds.begin(), lmds.end());
+    mergeAreas(bodies.sceneTree, bodies.partTree, sceneFromPart, bodies.cutoff, answer.minima, scratch_,
+               std::numeric_limits<std::uint64_t>::max());
+    std::erase_if(answer.minima, [](const Lmd& lmd) { return lmd.isMerged; });
     answer.wrench = scene_.wrenchOf(answer.minima, sceneFromPart);
   }
   void workAside(const RigidTransform& sceneFromPart) override { query_.workAside(sceneFromPart); }
 
  private:
-  static constexpr double kReachEdges = 4.0;  ///< Facets of surfaces that do not nearly conform stay within.
-
   const ErrorScene& scene_;
   TrackedQuery query_;
-  double reach_;
+  LmdScratch scratch_;
 };
 
 }  // namespace
@@ -100,7 +92,7 @@ std::vector<ErrorMethodEntry> exactErrorMethods() {
        [](const ErrorScene& scene) { return std::make_unique<ExactCold>(scene); }},
       {"exact tracked", "the same from lists that another thread renews; its time is not counted",
        kTrackedLeadIn, true, [](const ErrorScene& scene) { return std::make_unique<ExactTracked>(scene); }},
-      {"exact grouped", "tracked; of minima within four edge lengths of each other the nearest alone",
+      {"exact grouped", "tracked; of the minima of an area of contact (mergeAreas) the nearest alone",
        kTrackedLeadIn, false, [](const ErrorScene& scene) { return std::make_unique<ExactGrouped>(scene); }}};
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -21,30 +22,41 @@ constexpr double kSettling = 0.2;
 /// So many ticks of the refined way after the hand has become slower, or ticks shorter, that change is out of
 /// the filters of velocity.
 constexpr std::size_t kSettlingTicks = 50;
+constexpr std::size_t kModes = SmoothnessRun::kModes.size();
 
 double marginOf(const FeelScene& scene, const SmoothnessOptions& options) {
   return scene.margin.value_or(options.margin);
 }
 
-ServoParameters parametersOf(HapticMode mode, SpringLaw law, double cutoff, double margin) {
+ServoParameters proxyParameters(double cutoff, double margin) {
   ServoParameters parameters;
-  parameters.haptics.mode = mode;
   parameters.haptics.springs.cutoff = cutoff;
-  parameters.haptics.springs.law = law;
   parameters.haptics.proxy.margin = margin;
   return parameters;
 }
 
-/// The three modes along one way.
+ServoParameters springParameters(SpringLaw law, bool onePerArea, double cutoff) {
+  ServoParameters parameters;
+  parameters.haptics.mode = HapticMode::Springs;
+  parameters.haptics.springs.cutoff = cutoff;
+  parameters.haptics.springs.law = law;
+  parameters.haptics.springs.onePerArea = onePerArea;
+  // A device that bears any stiffness.
+  constexpr double kAnyDamping = 1e6;
+  parameters.limits.damping = parameters.limits.rotationalDamping = kAnyDamping;
+  return parameters;
+}
+
+/// The modes along one way.
 class ModesAbreast {
  public:
   ModesAbreast(const FeelScene& scene, const SmoothnessOptions& options, bool withDirect)
       : motion_(scene.motion), withDirect_(withDirect) {
     const double margin = marginOf(scene, options);
-    const std::array<ServoParameters, 3> parameters{
-        parametersOf(HapticMode::Proxy, SpringLaw::Linear, options.cutoff, margin),
-        parametersOf(HapticMode::Springs, SpringLaw::Linear, options.cutoff, margin),
-        parametersOf(HapticMode::Springs, SpringLaw::Printed, options.cutoff, margin)};
+    const std::array<ServoParameters, kModes> parameters{
+        proxyParameters(options.cutoff, margin), springParameters(SpringLaw::Linear, false, options.cutoff),
+        springParameters(SpringLaw::Printed, false, options.cutoff),
+        springParameters(SpringLaw::Linear, true, options.cutoff)};
     for (const ServoParameters& p : parameters)
       servos_.push_back(std::make_unique<FeelServo>(scene.scene, p, ListArrival::AtOnce, BenchClock::Wall));
   }
@@ -53,23 +65,30 @@ class ModesAbreast {
   const ServoSnapshot& tick(double time, double period) {
     const ServoSnapshot& felt = servos_[0]->tick(handAt(motion_, time), period);
     felt_[0] = felt.unclampedWrench;
-    for (std::size_t mode = 1; withDirect_ && mode < servos_.size(); ++mode)
-      felt_[mode] = servos_[mode]->tick(felt.proxy, period).unclampedWrench;
+    for (std::size_t mode = 1; withDirect_ && mode < servos_.size(); ++mode) {
+      const ServoSnapshot& direct = servos_[mode]->tick(felt.proxy, period);
+      felt_[mode] = direct.unclampedWrench;
+      lastSprings_[mode] = std::exchange(springs_[mode], direct.areaCount);
+    }
     return felt;
   }
 
   void leaveOutDirect() noexcept { withDirect_ = false; }
 
-  void keep(std::array<WrenchChanges, 3>& changes) const {
-    for (std::size_t mode = 0; mode < (withDirect_ ? servos_.size() : 1); ++mode)
-      changes[mode].add(felt_[mode]);
+  void keep(SmoothnessRun& run) const {
+    for (std::size_t mode = 0; mode < (withDirect_ ? servos_.size() : 1); ++mode) {
+      const std::uint32_t now = springs_[mode], before = lastSprings_[mode];
+      run.births[mode] += run.changes[mode].size.empty() ? 0 : std::max(now, before) - std::min(now, before);
+      run.changes[mode].add(felt_[mode]);
+    }
   }
 
  private:
   const PressingMotion& motion_;
   bool withDirect_;
   std::vector<std::unique_ptr<FeelServo>> servos_;
-  std::array<Wrench, 3> felt_;
+  std::array<Wrench, kModes> felt_;
+  std::array<std::uint32_t, kModes> springs_{}, lastSprings_{};
 };
 
 double ratioOf(double plain, double refined) {
@@ -138,7 +157,7 @@ SmoothnessRun runSmoothness(const FeelScene& scene, const SmoothnessOptions& opt
     if (static_cast<double>(i) > springTicks) servos.leaveOutDirect();
     const ServoSnapshot& felt = servos.tick(begin + step * static_cast<double>(i), period);
     // The same stretch of the way, however fine its ticks.
-    if (i >= kSettlingTicks * refinement / options.refinement) servos.keep(run.changes);
+    if (i >= kSettlingTicks * refinement / options.refinement) servos.keep(run);
     inContact += felt.contactCount > 0 ? 1 : 0;
     run.subSteps.push_back(felt.subSteps);
     run.turned += glm::length(turnBetween(last.value_or(felt.proxy.rotation), felt.proxy.rotation));
@@ -171,6 +190,12 @@ std::vector<FeelRow> smoothnessRows(const std::string& name, const FeelScene& sc
       const Rows before = rowsOf(name, of + " x1", plain.changes[mode]);
       const Rows after = rowsOf(name, run, refined.changes[mode]);
       if (isSamePeriod) rows.insert(rows.end(), {before.size, before.force, before.torque});
+      if (mode > 0) {
+        rows.push_back(feelRow("smoothness", name, of + " x1", "springs born or ended",
+                               std::vector{static_cast<double>(plain.births[mode])}));
+        rows.push_back(feelRow("smoothness", name, run, "springs born or ended",
+                               std::vector{static_cast<double>(refined.births[mode])}));
+      }
       rows.insert(rows.end(), {after.force, after.torque, ratioRow(before.force, after.force, run),
                                ratioRow(before.torque, after.torque, run)});
     }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -40,18 +41,22 @@ struct WrenchChanges {
   bool hasLast_ = false;
 };
 
-/// Of one path at one refinement, in three modes.
+/// Of one path at one refinement, in each mode. "grouped" is "spring" with one spring for each area of contact.
 struct SmoothnessRun {
-  static constexpr std::array<const char*, 3> kModes{"proxy", "spring", "printed"};
-  std::array<WrenchChanges, 3> changes;
+  static constexpr std::array<const char*, 4> kModes{"proxy", "spring", "printed", "grouped"};
+  std::array<WrenchChanges, kModes.size()> changes;
+  /// Springs from one tick to the next, more or fewer: minima that are born or end, and with "grouped" also areas that
+  /// part or merge.
+  std::array<std::uint64_t, kModes.size()> births{};
   std::vector<RigidTransform> poses;  ///< Of the proxy's part, tick by tick, the approach too.
   double inContact = 0.0;             ///< Share of the ticks in which something holds the proxy.
   std::vector<double> subSteps;       ///< Of the proxy, in each tick.
   double turned = 0.0;                ///< All angles that its part turned by, added up [rad].
 };
 
-/// Runs the three modes side by side along the hand's path. The approach is neither refined nor kept, the
-/// direct modes run where the period is held. The wrench is that before limits and ramps. In the direct modes
+/// Runs the modes side by side along the hand's path. The approach is neither refined nor kept, the
+/// direct modes run where the period is held. The wrench is that before limits and ramps, and in the direct modes without the bound of a
+/// device: it is the law that is measured. There
 /// the part is where the hand is, and springs mean nothing once it is inside: their hand takes the way that
 /// the proxy's part took.
 SmoothnessRun runSmoothness(const FeelScene& scene, const SmoothnessOptions& options, std::size_t refinement,

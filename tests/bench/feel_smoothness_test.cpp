@@ -83,6 +83,33 @@ TEST(RunSmoothness, RefinementKeepsTheWayAndSplitsItsSteps) {
   }
 }
 
+/// A ball that rolls in a bowl of facets: many minima where there is one area of contact.
+FeelScene ballInBowl() {
+  FeelScene feel;
+  feel.motion.start = {glm::dquat(1.0, 0.0, 0.0, 0.0), {0.0, 0.0, -0.0494}};
+  feel.scene = solidScene(test::bowlMesh(0.1, 0.12, 64, 16), test::icosphereMesh(0.05, 3), feel.motion.start);
+  feel.motion.centreInPart = feel.scene->centreInPart;
+  feel.motion.axis = {1.0, 0.0, 0.0};
+  feel.motion.towards = {0.0, 0.0, -1.0};
+  feel.motion.press = 2e-3;
+  feel.motion.swing = 0.3;
+  feel.motion.slide = 5e-3;
+  feel.size = 0.3;
+  return feel;
+}
+
+TEST(RunSmoothness, OneSpringForEachAreaJumpsLessThanTheSum) {
+  const SmoothnessRun run = runSmoothness(ballInBowl(), shortRun(), 1, Refinement::SamePeriod);
+  const std::size_t spring = 1, grouped = 3;
+  ASSERT_STREQ(SmoothnessRun::kModes[grouped], "grouped");
+  const auto largest = [](const std::vector<double>& values) { return *std::ranges::max_element(values); };
+  EXPECT_GT(run.births[spring], 0U);
+  EXPECT_LT(run.births[grouped], run.births[spring]);
+  EXPECT_LT(largest(run.changes[grouped].force), largest(run.changes[spring].force));
+  // No more than one spring: 200 N/m over the millimetre of the cutoff.
+  EXPECT_LT(largest(run.changes[grouped].size), 0.2);
+}
+
 TEST(SmoothnessRows, RatiosAreOfThePlainToTheRefined) {
   const std::vector<FeelRow> rows = smoothnessRows("box", boxOnFloor(), shortRun());
   const auto find = [&](const std::string& run, const std::string& quantity) {

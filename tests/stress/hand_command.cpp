@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -24,15 +25,16 @@ namespace nearfit::stress {
 namespace {
 
 struct HandOptions {
-  std::vector<std::string> scenes;
+  std::vector<std::string> scenes, modes;
   std::uint64_t ticks = 200000, seed = 1;
   std::uint64_t certifyEvery = 1;  ///< Each so many-th pose; 0: none.
   unsigned threads = 1;
 };
 
 constexpr const char* kColumns =
-    "scene,ticks,certified,meetings,in contact,starved,waiting,shortened,refused,most work,quaternion error,"
-    "energy gain J,ledger error,us a tick,failure\n";
+    "mode,scene,ticks,certified,meetings,in contact,starved,waiting,shortened,refused,most work,quaternion "
+    "error,"
+    "energy gain J,ledger error,largest force step N,lag m,springs held,us a tick,failure\n";
 
 /// A scene's row of the table.
 struct Row {
@@ -41,13 +43,14 @@ struct Row {
   bool isDone = false;
 };
 
-void print(const std::string& name, const Row& row) {
+void print(StressMode mode, const std::string& name, const Row& row) {
   const HandRunResult& r = row.result;
   const TickExtremes& e = r.extremes;
   const auto ticks = static_cast<double>(std::max<std::uint64_t>(r.ticks, 1));
-  fmt::print("{},{},{},{},{:.3f},{},{},{},{},{},{:.2g},{:.3g},{:.2g},{:.1f},{}\n", name, r.ticks, r.certified,
-             r.meetings, static_cast<double>(e.inContact) / ticks, e.starved, e.waiting, e.shortened,
-             e.refused, e.work, e.quaternionError, r.energyGain, r.ledgerError, 1e6 * row.seconds / ticks,
+  fmt::print("{},{},{},{},{},{:.3f},{},{},{},{},{},{:.2g},{:.3g},{:.2g},{:.3g},{:.3g},{},{:.1f},{}\n",
+             nameOf(mode), name, r.ticks, r.certified, r.meetings, static_cast<double>(e.inContact) / ticks,
+             e.starved, e.waiting, e.shortened, e.refused, e.work, e.quaternionError, r.energyGain,
+             r.ledgerError, e.forceStep, e.lag, e.heldTicks, 1e6 * row.seconds / ticks,
              r.failure.value_or(""));
   std::fflush(stdout);
 }
@@ -68,7 +71,8 @@ std::vector<std::uint64_t> ticksOf(const std::vector<StressEntry>& scenes, std::
 }
 
 /// Rows are printed in the order of the scenes, each as soon as those before it are.
-std::vector<Row> runScenes(const std::vector<StressEntry>& scenes, const HandOptions& options) {
+std::vector<Row> runScenes(const std::vector<StressEntry>& scenes, const HandOptions& options,
+                           StressMode mode) {
   const std::vector<std::uint64_t> ticks = ticksOf(scenes, options.ticks);
   std::vector<Row> rows(scenes.size());
   std::atomic<std::size_t> next{0};
@@ -76,11 +80,11 @@ std::vector<Row> runScenes(const std::vector<StressEntry>& scenes, const HandOpt
   std::mutex mutex;
   const auto work = [&] {
     for (std::size_t i = next++; i < scenes.size(); i = next++) {
-      Row row = runScene(scenes[i], {ticks[i], options.seed, options.certifyEvery});
+      Row row = runScene(scenes[i], {ticks[i], options.seed, options.certifyEvery, mode});
       const std::lock_guard lock(mutex);
       rows[i] = std::move(row);
       for (; printed < rows.size() && rows[printed].isDone; ++printed)
-        print(scenes[printed].name, rows[printed]);
+        print(mode, scenes[printed].name, rows[printed]);
     }
   };
   std::vector<std::jthread> others;
@@ -95,12 +99,15 @@ void run(const HandOptions& options) {
   fmt::print("{}", bench::machineComment());
   std::fflush(stdout);
   const std::vector<StressEntry> scenes = chosenScenes(stressScenes(NEARFIT_SHARED_DIR), options.scenes);
+  const std::vector<StressMode> modes = stressModes(options.modes);
   fmt::print("{}", kColumns);
-  const std::vector<Row> rows = runScenes(scenes, options);
-  const auto failures =
-      std::ranges::count_if(rows, [](const Row& row) { return row.result.failure.has_value(); });
+  std::ptrdiff_t failures = 0;
+  for (const StressMode mode : modes) {
+    const std::vector<Row> rows = runScenes(scenes, options, mode);
+    failures += std::ranges::count_if(rows, [](const Row& row) { return row.result.failure.has_value(); });
+  }
   if (failures > 0) {
-    throw Error("hand", fmt::format("{} of {} scenes failed", failures, scenes.size()),
+    throw Error("hand", fmt::format("{} of {} scenes failed", failures, modes.size() * scenes.size()),
                 "run each again by its name with the same seed and its number of ticks");
   }
 }
@@ -112,7 +119,9 @@ void addHandCommand(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("hand", "An adversarial hand, and exact checks of where the part goes");
   command->add_option("--scenes", options->scenes, "Names, with commas; all by default")->delimiter(',');
-  command->add_option("--ticks", options->ticks, "Of all scenes together")->capture_default_str();
+  command->add_option("--ticks", options->ticks, "Of all scenes together, in each mode")
+      ->capture_default_str();
+  addModeOption(*command, options->modes);
   command->add_option("--threads", options->threads, "Scenes at a time; results are the same")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

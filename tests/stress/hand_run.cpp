@@ -36,12 +36,12 @@ class HandRun {
         options_(options),
         random_(options.seed),
         motion_(scene, options.seed + 1),
-        servo_(scene.scene, parametersOf(scene), options.seed + 2),
+        servo_(scene.scene, parametersOf(scene, options.mode), options.seed + 2),
         hand_({}, scene.scene->centreInPart, scene.scene->moving.worldFromPart),
         poses_(scene) {}
 
   HandRunResult run() {
-    poses_.add(scene_.scene->moving.worldFromPart, 0);
+    if (isProxy()) poses_.add(scene_.scene->moving.worldFromPart, 0);
     for (; result_.ticks < options_.ticks && !result_.failure; ++result_.ticks) {
       if (result_.ticks % kEpisode == 0) beginEpisode();
       tick();
@@ -50,7 +50,8 @@ class HandRun {
     result_.certified = poses_.certified();
     result_.meetings = poses_.meetings();
     result_.energyGain = std::max(largestGain_, ledger_.largestGain());
-    if (!result_.failure && scene_.isEnergyBound && result_.energyGain > kMaxEnergyGain)
+    const double most = isProxy() ? kMaxEnergyGain : kMaxSpringEnergyGain;
+    if (!result_.failure && scene_.isEnergyBound && result_.energyGain > most)
       result_.failure = fmt::format("the hand gained {:.3g} J", result_.energyGain);
     if (!result_.failure && result_.ledgerError > kMaxLedgerError)
       result_.failure = fmt::format("the servo's account of energy is off by {:.3g}", result_.ledgerError);
@@ -59,10 +60,13 @@ class HandRun {
   }
 
  private:
-  static ServoParameters parametersOf(const StressScene& scene) {
+  bool isProxy() const { return options_.mode == StressMode::Proxy; }
+
+  static ServoParameters parametersOf(const StressScene& scene, StressMode mode) {
     ServoParameters parameters;
     parameters.haptics.proxy.margin = scene.margin;
     parameters.haptics.springs.cutoff = scene.cutoff;
+    setMode(parameters.haptics, mode, SpringParameters{}.stiffness);
     return parameters;
   }
 
@@ -80,6 +84,11 @@ class HandRun {
     settings.coupling.stiffness = within(1.0, 1e5);
     settings.coupling.damping = chance(0.5) ? 0.0 : bench::uniform(random_);
     settings.coupling.rotationalStiffness = within(1e-3, 10.0);
+    if (!isProxy()) {
+      // To beyond what a device bears; the proxy's settings are drawn above all the same.
+      setMode(settings, options_.mode, within(10.0, 1e5));
+      settings.springs.damping = chance(0.5) ? 0.0 : bench::uniform(random_);
+    }
     servo_.setArrival(static_cast<Arrival>(random_() % 3));
     // From where it is narrow, as often as not: a hand this wild seldom finds its way back.
     if (chance(0.5)) startAnew();
@@ -125,6 +134,7 @@ class HandRun {
       return;
     }
     if (!isFirst_) {
+      result_.extremes.addStep(*scene_.scene, *before_, now);
       // A ramp (after a clutch too) and a wrench that has faded with its input give what was stretched
       // meanwhile its force.
       if (episode_.isStuttering || episode_.usesClutch) whole_ = 0.0;
@@ -136,7 +146,7 @@ class HandRun {
       result_.ledgerError = std::max(result_.ledgerError, error);
     }
     isFirst_ = false;
-    if (options_.certifyEvery > 0 && result_.ticks % options_.certifyEvery == 0)
+    if (isProxy() && options_.certifyEvery > 0 && result_.ticks % options_.certifyEvery == 0)
       poses_.add(now.proxy, result_.ticks);
   }
 

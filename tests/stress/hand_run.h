@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "tests/stress/stress_mode.h"
 #include "tests/stress/stress_scene.h"
 #include "tests/stress/tick_checks.h"
 
@@ -13,6 +14,8 @@ struct HandRunOptions {
   std::uint64_t ticks = 10000;
   std::uint64_t seed = 1;
   std::uint64_t certifyEvery = 1;  ///< Poses that exact predicates look at: each so many-th; 0: none.
+  /// With springs the part may go through others: no pose is certified then.
+  StressMode mode = StressMode::Proxy;
 };
 
 struct HandRunResult {
@@ -28,7 +31,7 @@ struct HandRunResult {
 
 /// An adversarial hand on a scene, by whole ticks of the servo in virtual time. Settings change in episodes:
 /// friction, weight, inertia, coupling, margin, the servo's period and how late lists come, whether the hand
-/// is led along its path or held by a grip with mass. Ends at the first failure.
+/// is led along its path or held by a grip with mass; with springs also their stiffness and damping. Ends at the first failure.
 HandRunResult runHand(const StressScene& scene, const HandRunOptions& options);
 
 }  // namespace nearfit::stress

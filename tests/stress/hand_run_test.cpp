@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -53,6 +54,40 @@ TEST(AdversarialHandFarAway, GainsLittleWhereWhatItFeltAheadComesBack) {
   const HandRunResult result = runHand(scene, {.ticks = 120'000 / kShare, .seed = 1, .certifyEvery = 0});
   EXPECT_FALSE(result.failure) << *result.failure;
   EXPECT_LE(result.energyGain, kMaxEnergyGain);
+}
+
+TEST(AdversarialHandOnSprings, GetsAForceWithinAllLimitsAndThePartIsWhereItIs) {
+  for (const StressMode mode : {StressMode::Spring, StressMode::Printed, StressMode::Grouped}) {
+    for (const char* name : {"peg-bore", "thin-wall", "sheet-box", "rings", "crowd"}) {
+      const StressScene scene = chosenScenes(stressScenes({}), {name}).front().make();
+      const HandRunResult result = runHand(scene, {.ticks = 8000 / kShare, .seed = 20, .mode = mode});
+      EXPECT_FALSE(result.failure) << nameOf(mode) << ", " << name << ": " << *result.failure;
+      EXPECT_EQ(result.certified, 0U) << "the part may go through";
+      EXPECT_EQ(result.extremes.lag, 0.0);
+      EXPECT_GT(result.extremes.inContact, 0U) << name;
+      EXPECT_GT(result.extremes.forceStep, 0.0);
+      EXPECT_GT(result.extremes.heldTicks, 0U) << name << ": stiffer than the device bears, now and then";
+      EXPECT_LT(result.ledgerError, 1e-9);
+    }
+  }
+}
+
+TEST(TickChecks, FindAPartOnSpringsThatIsNotWhereTheHandIs) {
+  const auto now = std::make_unique<ServoSnapshot>();
+  now->mode = HapticMode::Springs;
+  const ServoParameters parameters;
+  EXPECT_FALSE(faultOf(*now, *now, parameters, 1e-3));
+  now->overlappingCount = 1;
+  EXPECT_FALSE(faultOf(*now, *now, parameters, 1e-3)) << "springs let parts overlap";
+  now->proxy.translation.x = 1e-9;
+  EXPECT_TRUE(faultOf(*now, *now, parameters, 1e-3));
+  TickExtremes extremes;
+  const StressScene scene = linkedRings(0.1, 1e-4);
+  const auto before = std::make_unique<ServoSnapshot>(*now);
+  now->unclampedWrench.force = {3.0, 0.0, 4.0};
+  extremes.addStep(*scene.scene, *before, *now);
+  EXPECT_EQ(extremes.forceStep, 5.0);
+  EXPECT_NEAR(extremes.lag, 1e-9, 1e-15);
 }
 
 TEST(StressServo, ANumberThatIsNoneLatchesAFaultAndThePartStays) {

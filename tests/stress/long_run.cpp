@@ -27,13 +27,13 @@ double between(double time, double begin, double end) {
 }
 
 /// At the same moment of each cycle the same, to the last bit.
-RigidTransform handAt(std::uint64_t tickOfCycle) {
+RigidTransform handAt(std::uint64_t tickOfCycle, double press) {
   const double time = ServoLoop::kPeriod * static_cast<double>(tickOfCycle);
   const double down = between(time, 0.5, 1.5) - between(time, 8.0, 9.0);
   const double slide = between(time, 2.0, 4.0) - between(time, 9.0, 9.8);
   const double turn = between(time, 4.5, 6.0) - between(time, 9.0, 9.8);
   return {glm::angleAxis(0.5 * turn, glm::dvec3(0.0, 0.0, 1.0)),
-          {0.05 * slide, 0.0, 0.5 * kCubeSide + 0.01 - 0.013 * down}};
+          {0.05 * slide, 0.0, 0.5 * kCubeSide + 0.01 - press * down}};
 }
 
 std::int64_t residentBytes() {
@@ -51,13 +51,16 @@ struct Moment {
 
 class LongRun {
  public:
-  LongRun() : scene_(cubeOverFloor(handAt(0), kLongMargin)), servo_(scene_.scene, parameters(), 1) {}
+  explicit LongRun(StressMode mode)
+      : press_(mode == StressMode::Proxy ? kPress : kSpringPress),
+        scene_(cubeOverFloor(handAt(0, press_), kLongMargin)),
+        servo_(scene_.scene, parameters(mode), 1) {}
 
   LongRunResult run(std::uint64_t ticks) {
     const std::uint64_t late = ticks - ticks / 10;
     for (result_.ticks = 0; result_.ticks < ticks; ++result_.ticks) {
       const std::uint64_t ofCycle = result_.ticks % kTicksOfCycle;
-      const ServoSnapshot& s = servo_.tick({.pose = handAt(ofCycle)}, ServoLoop::kPeriod);
+      const ServoSnapshot& s = servo_.tick({.pose = handAt(ofCycle, press_)}, ServoLoop::kPeriod);
       // Free and at rest at the beginning, pressed and at rest before it is lifted.
       if (ofCycle == kTicksOfCycle / 25)
         result_.freeDrift =
@@ -70,10 +73,11 @@ class LongRun {
   }
 
  private:
-  static ServoParameters parameters() {
+  static ServoParameters parameters(StressMode mode) {
     ServoParameters parameters;
     parameters.haptics.proxy.margin = kLongMargin;
     parameters.haptics.springs.cutoff = 2e-3;
+    setMode(parameters.haptics, mode, SpringParameters{}.stiffness);
     return parameters;
   }
 
@@ -99,6 +103,10 @@ class LongRun {
     residentBefore_ = residentBytes();
   }
 
+  /// From a centimetre above the floor: 3 mm into it, and to 0.5 mm above it [m].
+  static constexpr double kPress = 0.013, kSpringPress = 0.0095;
+
+  const double press_;
   const StressScene scene_;
   StressServo servo_;
   LongRunResult result_;
@@ -109,8 +117,8 @@ class LongRun {
 
 }  // namespace
 
-LongRunResult runLong(double seconds) {
-  return LongRun().run(static_cast<std::uint64_t>(std::llround(seconds / ServoLoop::kPeriod)));
+LongRunResult runLong(double seconds, StressMode mode) {
+  return LongRun(mode).run(static_cast<std::uint64_t>(std::llround(seconds / ServoLoop::kPeriod)));
 }
 
 }  // namespace nearfit::stress

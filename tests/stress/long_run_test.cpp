@@ -21,5 +21,14 @@ TEST(LongRun, NeitherDriftsNorGrowsInMinutes) {
 #endif
 }
 
+TEST(LongRun, OnSpringsTheForceIsTheSameInEveryCycle) {
+  for (const StressMode mode : {StressMode::Spring, StressMode::Printed, StressMode::Grouped}) {
+    const LongRunResult result = runLong(60.0, mode);
+    EXPECT_EQ(result.cycles, 6U) << nameOf(mode);
+    EXPECT_EQ(result.freeDrift, 0.0) << nameOf(mode);
+    EXPECT_LE(result.forceDrift, kMaxForceDrift) << nameOf(mode);
+  }
+}
+
 }  // namespace
 }  // namespace nearfit::stress::long_run_test

@@ -12,7 +12,9 @@ import matplotlib.pyplot as plt  # noqa: E402
 def rows(path):
     with open(path, newline="") as file:
         table = csv.DictReader(line for line in file if not line.startswith("#"))
-        return [{key: float(value) for key, value in row.items()} for row in table]
+        # Of the proxy; older tables have no other mode, and no column for it.
+        return [{key: float(value) for key, value in row.items() if key != "mode"}
+                for row in table if row.get("mode", "proxy") == "proxy"]
 
 
 def main(source, picture):

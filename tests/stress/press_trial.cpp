@@ -1,20 +1,33 @@
 #include "tests/stress/press_trial.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/haptics/spring_bound.h"
 #include "core/haptics/virtual_coupling.h"
+#include "core/haptics/workspace_mapper.h"
+#include "core/haptics/wrench_conditioner.h"
 #include "tests/bench/portable_random.h"
 #include "tests/stress/held_hand.h"
 #include "tests/stress/stress_servo.h"
+#include "tests/stress/tick_checks.h"
 #include "tests/support/mesh_generators.h"
 
 namespace nearfit::stress {
 namespace {
 
 constexpr double kWindow = 1.0;  ///< At the end [s].
+/// Springs reach so many margins: a hand that leans on a softer one goes through.
+constexpr double kSpringReach = 50.0;
+/// Springs that wish for all that the device bears: what they may be set to at most, beyond any bound here [N/m].
+constexpr double kStiffSpring = 1e6;
 constexpr double kJitter = 1.0 / 3.0, kLost = 0.05;
 
 /// Of vectors, about their mean.
@@ -45,6 +58,12 @@ ServoParameters parametersOf(const PressScene& scene, const PressOptions& option
   settings.proxy = {.margin = scene.scene.margin, .friction = options.friction};
   settings.springs.cutoff = scene.scene.cutoff;
   settings.mapping.scale = scene.scale;
+  parameters.limits.damping = options.toldDamping > 0.0 ? options.toldDamping : options.damping;
+  if (options.mode != StressMode::Proxy) {
+    settings.springs.cutoff = kSpringReach * scene.scene.margin;
+    setMode(settings, options.mode,
+            (options.stiffness > 0.0 ? options.stiffness : kStiffSpring) / scene.scale);
+  }
   if (options.stiffness > 0.0) {
     // The handle goes so many times as far under the same force; turns as stiff as the part's metric has
     // them.
@@ -88,12 +107,56 @@ PressScene cubeAt(const char* name, const RigidTransform& wanted) {
           wanted};
 }
 
+/// An open sheet of quads over a grid, bent: a vertex for each place (u, v) of 0 to 1 each.
+template <class Place>
+TriangleMesh bentSheet(std::uint32_t alongU, std::uint32_t alongV, Place&& placeAt) {
+  std::vector<glm::dvec3> vertices;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t v = 0; v <= alongV; ++v) {
+    for (std::uint32_t u = 0; u <= alongU; ++u)
+      vertices.push_back(placeAt(static_cast<double>(u) / alongU, static_cast<double>(v) / alongV));
+  }
+  for (std::uint32_t v = 0; v < alongV; ++v) {
+    for (std::uint32_t u = 0; u < alongU; ++u) {
+      const std::uint32_t corner = v * (alongU + 1) + u, above = corner + alongU + 1;
+      triangles.push_back({corner, corner + 1, above + 1});
+      triangles.push_back({corner, above + 1, above});
+    }
+  }
+  return {std::move(vertices), std::move(triangles)};
+}
+
+/// A cup, a sheet with a rim, in a coil, a ribbon wound three times around: as a teapot in a spring, neither closed.
+PressScene cupInCoil() {
+  constexpr double kCoil = 0.03, kPitch = 0.02, kRibbon = 0.004, kCup = 0.025, kDepth = 0.03, kMargin = 1e-4;
+  const auto turn = [](double share) { return 2.0 * std::numbers::pi * share; };
+  const TriangleMesh coil = bentSheet(96, 2, [&](double u, double v) {
+    const double angle = turn(3.0 * u);
+    return glm::dvec3(kCoil * std::cos(angle), kCoil * std::sin(angle),
+                      3.0 * kPitch * (u - 0.5) + kRibbon * (v - 0.5));
+  });
+  // A cone's side and no bottom: open at both ends, and along the seam.
+  const TriangleMesh cup = bentSheet(24, 4, [&](double u, double v) {
+    const double radius = kCup * (0.5 + 0.5 * v);
+    return glm::dvec3(radius * std::cos(turn(u)), radius * std::sin(turn(u)), kDepth * (v - 0.5));
+  });
+  return {"cup-in-coil", stressScene({{coil}}, cup, placedAt({0.0, 0.0, 0.0}), kMargin),
+          placedAt({0.012, 0.004, 0.002}, glm::angleAxis(0.1, glm::dvec3(0.0, 1.0, 0.0)))};
+}
+
 /// The wanted pose as a device has it that was in its origin when the servo began, the part's centre in hand.
 RigidTransform onDevice(const PressScene& scene) {
   const RigidTransform& start = scene.scene.scene->moving.worldFromPart;
   const glm::dvec3& centre = scene.scene.scene->centreInPart;
   return {glm::normalize(scene.wanted.rotation * glm::conjugate(start.rotation)),
           (scene.wanted.applyToPoint(centre) - start.applyToPoint(centre)) / scene.scale};
+}
+
+/// Of the coupling, or of each spring as far as it is rendered [N/m].
+double stiffnessInForce(StressServo& servo) {
+  const HapticSettings& settings = servo.parameters().haptics;
+  if (settings.mode == HapticMode::Proxy) return servo.snapshot().coupling.stiffness;
+  return servo.snapshot().springShares.force * slopeOf(settings.springs);
 }
 
 }  // namespace
@@ -116,7 +179,9 @@ std::vector<PressScene> pressScenes() {
           named("huge", {220.0, 50.0, 50.0}, {1.0, 0.0, 0.0, 0.0}, 1e3),
           named("far", pulled),
           named("far-mesh", pulled),
-          named("closed-box", {0.03, 0.04, 0.05}, tilt)};
+          named("closed-box", {0.03, 0.04, 0.05}, tilt),
+          named("open-sheet", {0.0, 0.0, -0.06}),
+          cupInCoil()};
 }
 
 PressResult press(const PressScene& scene, const PressOptions& options) {
@@ -125,7 +190,12 @@ PressResult press(const PressScene& scene, const PressOptions& options) {
   StressServo servo(scene.scene.scene, parametersOf(scene, options), options.seed);
   servo.setArrival(Arrival::Usual);
   const RigidTransform wanted = onDevice(scene);
-  HeldHand hand({}, glm::dvec3(0.0), {});
+  HeldHand hand({.damping = options.damping}, glm::dvec3(0.0), {});
+  EnergyLedger ledger;
+  ServoParameters atHandle = servo.parameters();
+  atHandle.limits = limitsAtHandle(atHandle.limits, scene.scale);
+  const auto before = std::make_unique<ServoSnapshot>();
+  double forceStep = 0.0, lag = 0.0;
   Spread places, turns, forces, torques;
   double time = 0.0;
   Wrench held;
@@ -139,7 +209,15 @@ PressResult press(const PressScene& scene, const PressOptions& options) {
     const ServoSnapshot& s = servo.tick({.pose = hand.pose(), .hasOwnFrame = true}, period);
     held = s.deviceWrench;
     time += period;
+    // A force that is ramped in gives what was stretched meanwhile its force.
+    if (time < 2.0 * WrenchConditioner::kRampTime) ledger.cut();
+    if (!isFirst) ledger.add(servoScene, atHandle, *before, s, period);
+    const glm::dvec3 lastForce = before->unclampedWrench.force;
+    *before = s;
     if (time < options.seconds - kWindow) continue;
+    forceStep = std::max(forceStep, glm::distance(lastForce, s.unclampedWrench.force));
+    lag =
+        std::max(lag, glm::distance(s.centre, s.handle.applyToPoint(servoScene.centreInPart)) / scene.scale);
     places.add(hand.centre());
     turns.add(turnBetween(servoScene.moving.worldFromPart.rotation, s.handle.rotation));
     forces.add(held.force);
@@ -149,8 +227,12 @@ PressResult press(const PressScene& scene, const PressOptions& options) {
   return {std::hypot(places.rms(), radius * turns.rms()),
           forces.rms(),
           torques.rms(),
-          servo.snapshot().coupling.stiffness * scene.scale,
+          stiffnessInForce(servo) * scene.scale,
           glm::length(forces.mean()),
+          forceStep,
+          ledger.largestGain(),
+          lag,
+          servo.snapshot().springShares.force,
           !scene.scene.isKept || scene.scene.isKept(servo.snapshot().proxy)};
 }
 

@@ -27,16 +27,45 @@ double knownPeriod(double period) {
   return std::max(period, PeriodMeter{}.nominal());
 }
 
+/// How a device leans: below where the force begins [m], and on which springs.
+struct Stance {
+  double depth = 0.0, cutoff = 0.0;
+  double springStiffness = 0.0;  ///< As SpringParameters has it for the law.
+};
+
+/// @param stiffness  Slope of the force where the device leans [N/m].
+Stance stanceOf(StressMode mode, double stiffness) {
+  const double depth = kPush / stiffness;
+  switch (mode) {
+    case StressMode::Proxy:
+      return {depth, 1e-3, SpringParameters{}.stiffness};
+    case StressMode::Spring:
+    case StressMode::Grouped:
+      return {depth, 2.0 * depth, stiffness};
+    case StressMode::Printed:
+      break;
+  }
+  // At three quarters of the cutoff c the law k (c - d) d has a slope of k c / 2, and a force of 3/16 k c^2.
+  const double cutoff = 8.0 / 3.0 * depth;
+  return {0.25 * cutoff, cutoff, 2.0 * stiffness / cutoff};
+}
+
 ServoParameters parametersFor(const LeaningDevice& device, double stiffness) {
   ServoParameters parameters;
   HapticSettings& settings = parameters.haptics;
   settings.proxy.margin = kWallMargin;
-  settings.springs.cutoff = 1e-3;
+  const Stance stance = stanceOf(device.mode, stiffness);
+  settings.springs.cutoff = stance.cutoff;
+  setMode(settings, device.mode, stiffness);
+  settings.springs.stiffness = stance.springStiffness;
+  settings.springs.damping = device.couplingDamping;
   settings.coupling = {.isAutomatic = false, .stiffness = stiffness, .damping = device.couplingDamping};
   DeviceLimits& limits = parameters.limits;
-  // A little more than the bound asks for, and twice the rendered damping at least.
+  // A little more than the bound asks for, and twice the rendered damping at least. The printed law asks for twice its
+  // slope here.
   constexpr double kMore = 1.001;
-  limits.damping = std::max(kMore * (0.5 * stiffness * knownPeriod(device.period) + device.couplingDamping),
+  const double counted = device.mode == StressMode::Printed ? 2.0 * stiffness : stiffness;
+  limits.damping = std::max(kMore * (0.5 * counted * knownPeriod(device.period) + device.couplingDamping),
                             2.0 * kMore * device.couplingDamping);
   limits.maxForce = limits.forceSlew = kNoLimit;
   return parameters;
@@ -47,13 +76,15 @@ class Leaning {
  public:
   Leaning(const LeaningDevice& device, double stiffness)
       : device_(device),
-        depth_(kPush / stiffness),
+        depth_(stanceOf(device.mode, stiffness).depth),
+        atRest_(0.5 * kCubeSide +
+                (device.mode == StressMode::Proxy ? kWallMargin : stanceOf(device.mode, stiffness).cutoff)),
         servo_(scene().scene, parametersFor(device, stiffness), 1),
         hand_(device.mass, device.damping, 0.0, 0.0) {
     // Led down, until the ramp is over and the period known.
     const int ticks = static_cast<int>(std::ceil(0.4 / device.period)) + 100;
     for (int i = 0; i < ticks; ++i)
-      servo_.tick(at(atRest() - depth_ * std::min(1.0, 2.0 * i / ticks)), device.period);
+      servo_.tick(at(atRest_ - depth_ * std::min(1.0, 2.0 * i / ticks)), device.period);
     const double nudge = kNudge * depth_ * std::sqrt(stiffness / device.mass);
     hand_ = test::SimulatedHand(device.mass, device.damping, 0.0, nudge);
   }
@@ -64,7 +95,7 @@ class Leaning {
     for (int i = 0; i < ticks && most < depth_; ++i) {
       const double force = servo_.snapshot().wrench.force.z - kPush;
       hand_.step(force, device_.period);
-      servo_.tick(at(atRest() - depth_ + hand_.position()), device_.period);
+      servo_.tick(at(atRest_ - depth_ + hand_.position()), device_.period);
       const double velocity = hand_.velocity() * std::sqrt(device_.mass / stiffness);
       most = std::max(most, std::hypot(hand_.position(), velocity));
     }
@@ -76,11 +107,11 @@ class Leaning {
     static const StressScene made = cubeOverFloor(placedAt({0.0, 0.0, 0.5 * kCubeSide + 1e-3}), kWallMargin);
     return made;
   }
-  static double atRest() { return 0.5 * kCubeSide + kWallMargin; }
   static HandleInput at(double height) { return {.pose = {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, height}}}; }
 
   const LeaningDevice device_;
-  const double depth_;
+  const double depth_;   ///< [m]
+  const double atRest_;  ///< Height of the cube's centre where the force begins [m].
   StressServo servo_;
   test::SimulatedHand hand_;
 };
@@ -175,7 +206,8 @@ double exactLimit(const LeaningDevice& device) {
 }
 
 double enforcedBound(const LeaningDevice& device) {
-  return stiffnessBound(device.damping, device.couplingDamping, knownPeriod(device.period));
+  const double bound = stiffnessBound(device.damping, device.couplingDamping, knownPeriod(device.period));
+  return device.mode == StressMode::Printed ? 0.5 * bound : bound;
 }
 
 }  // namespace nearfit::stress

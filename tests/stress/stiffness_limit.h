@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tests/stress/stress_mode.h"
+
 namespace nearfit::stress {
 
 /// A device in one dimension that leans on a wall, through the servo.
@@ -8,6 +10,8 @@ struct LeaningDevice {
   double damping = 1.0;          ///< Its own, b [N s/m].
   double period = 1e-3;          ///< Of the servo, T [s].
   double couplingDamping = 0.0;  ///< Rendered, B [N s/m].
+  /// What it leans on: the coupling, or one spring over a flat floor, whose slope where it leans is the stiffness.
+  StressMode mode = StressMode::Proxy;
 };
 
 /// The stiffness from which on a device that leans on a floor, nudged, is shaken ever more [N/m]: by
@@ -29,7 +33,8 @@ bool isCalm(const LeaningDevice& device, double stiffness);
 /// beyond one; found by bisection.
 double exactLimit(const LeaningDevice& device);
 
-/// What the application allows that device [N/m].
+/// What the application allows that device [N/m]. Of the printed law, which counts by its largest slope, that at
+/// contact, half as much where the device leans.
 double enforcedBound(const LeaningDevice& device);
 
 }  // namespace nearfit::stress

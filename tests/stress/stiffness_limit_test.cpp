@@ -53,5 +53,17 @@ TEST(StiffnessLimit, EnforcedIsStableAndNotNeedlesslyLow) {
   }
 }
 
+TEST(StiffnessLimit, OfSpringsIsWhereTheClosedFormHasItAndTheEnforcedOneIsStable) {
+  for (const StressMode mode : {StressMode::Spring, StressMode::Printed, StressMode::Grouped}) {
+    for (const double period : {1e-3, 10e-3}) {
+      const LeaningDevice device{.mass = 0.1, .damping = 2.0, .period = period, .mode = mode};
+      EXPECT_NEAR(simulatedLimit(device), exactLimit(device), 0.05 * exactLimit(device))
+          << nameOf(mode) << ", " << period << " s";
+      EXPECT_TRUE(isCalm(device, enforcedBound(device))) << nameOf(mode) << ", " << period << " s";
+      EXPECT_FALSE(isCalm(device, 1.1 * exactLimit(device))) << nameOf(mode) << ", " << period << " s";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nearfit::stress::stiffness_limit_test

@@ -77,7 +77,14 @@ void TickExtremes::add(const ServoSnapshot& s) {
   waiting += s.isWaiting ? 1 : 0;
   shortened += s.shortenedSteps;
   refused += s.refusedSteps;
-  inContact += s.contactCount > 0 ? 1 : 0;
+  inContact += s.contactCount > 0 || (s.mode == HapticMode::Springs && s.areaCount > 0) ? 1 : 0;
+  heldTicks += s.springShares.isHeld() ? 1 : 0;
+}
+
+void TickExtremes::addStep(const ServoScene& scene, const ServoSnapshot& before, const ServoSnapshot& now) {
+  forceStep = std::max(forceStep, glm::distance(before.unclampedWrench.force, now.unclampedWrench.force));
+  const glm::dvec3& centre = scene.centreInPart;
+  lag = std::max(lag, glm::distance(now.proxy.applyToPoint(centre), now.handle.applyToPoint(centre)));
 }
 
 std::optional<std::string> faultOf(const ServoSnapshot& now, const ServoSnapshot& before,
@@ -86,7 +93,9 @@ std::optional<std::string> faultOf(const ServoSnapshot& now, const ServoSnapshot
   if (!areNumbers(now)) return "a number is none";
   if (offUnit(now.proxy.rotation) > kQuaternionError || offUnit(now.handle.rotation) > kQuaternionError)
     return fmt::format("quaternion off by {:.3g}", offUnit(now.proxy.rotation));
-  if (now.overlappingCount > 0) return "the part is said to overlap a body";
+  const bool isProxy = now.mode == HapticMode::Proxy;
+  if (isProxy && now.overlappingCount > 0) return "the part is said to overlap a body";
+  if (!isProxy && now.proxy.translation != now.handle.translation) return "the part is not where the hand is";
   const DeviceLimits& limits = parameters.limits;
   if (glm::length(now.wrench.force) > limits.maxForce * (1.0 + kLimitSlack) ||
       glm::length(now.wrench.torque) > limits.maxTorque * (1.0 + kLimitSlack))

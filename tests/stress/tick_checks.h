@@ -42,20 +42,29 @@ constexpr double kMaxLedgerError = 1e-6;
 constexpr double kMaxEnergyGain =
     PassivityController::kMaxDebt + PassivityController::kSlack + 0.5 * 10.0 * (10.0 / 2000.0) * 2.0;
 
+/// The same in the modes of springs: the controller takes springs to hold as much as its largest debt, whatever they
+/// do, so that a hand may get that back as well.
+constexpr double kMaxSpringEnergyGain = kMaxEnergyGain + PassivityController::kMaxDebt;
+
 /// What a tick may be at worst.
 struct TickExtremes {
   double quaternionError = 0.0;  ///< Of the part's and the handle's pose, off unit length.
   std::uint64_t work = 0;
   double force = 0.0, torque = 0.0;
+  double forceStep = 0.0;       ///< From one tick to the next, before limits and ramps [N].
+  double lag = 0.0;             ///< Of the part's centre behind the hand's [m]; zero in the modes of springs.
+  std::uint64_t heldTicks = 0;  ///< With springs held back to what the device bears.
   std::uint64_t starved = 0, waiting = 0, shortened = 0, refused = 0, inContact = 0;
 
   void add(const ServoSnapshot& s);
+  /// What needs the tick before, too.
+  void addStep(const ServoScene& scene, const ServoSnapshot& before, const ServoSnapshot& now);
 };
 
 /// How far a quaternion may be off unit length.
 constexpr double kQuaternionError = 1e-12;
 
-/// What is wrong with a tick by itself: a fault, a number that is none, a length off, a limit passed, work
+/// What is wrong with a tick by itself: a part that overlaps another one (proxy mode) or is not where the hand is (springs), a fault, a number that is none, a length off, a limit passed, work
 /// beyond mostWork(). None where all is well.
 std::optional<std::string> faultOf(const ServoSnapshot& now, const ServoSnapshot& before,
                                    const ServoParameters& parameters, double period);

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
 #include "core/proximity/query/blocked_minima.h"
+#include "core/proximity/query/contact_areas.h"
 
 namespace nearfit {
 namespace {
@@ -69,6 +72,13 @@ LmdSet LmdCollector::collectTracked(const NormalConeTree& scene, const NormalCon
     const std::optional<LmdResult> listed = list_.query(sceneFromPart, cutoff, scratch, out);
     return listed ? *listed : findLmds(scene, part, sceneFromPart, cutoff, scratch, out);
   });
+}
+
+void LmdCollector::mergeByArea(const NormalConeTree& scene, const NormalConeTree& part,
+                               const RigidTransform& sceneFromPart, double cutoff, LmdSet& set) {
+  set.areas = mergeAreas(scene, part, sceneFromPart, cutoff, set.lmds, scratch_,
+                         std::numeric_limits<std::uint64_t>::max())
+                  .areas;
 }
 
 }  // namespace nearfit

@@ -23,6 +23,7 @@ void markFarRegions(std::vector<Lmd>& lmds, double fromOrigin, double size) noex
 struct LmdSet {
   std::vector<Lmd> lmds;   ///< Nearest first, in the scene mesh's frame; blocked ones are marked.
   bool isComplete = true;  ///< False if there are more than the limit; the nearest are kept.
+  std::size_t areas = 0;   ///< Areas of contact, once mergeByArea() has been called.
   double queryTime = 0.0;  ///< Duration of the final query alone [s].
 };
 
@@ -43,6 +44,11 @@ class LmdCollector {
   /// near a pose. That time is not part of `queryTime`.
   LmdSet collectTracked(const NormalConeTree& scene, const NormalConeTree& part,
                         const RigidTransform& sceneFromPart, double cutoff);
+
+  /// Marks the minima of a set for whose area of contact another one stands (mergeAreas()), however much work it is.
+  /// @param set  From collect() or collectTracked() with the same bodies, pose and cutoff.
+  void mergeByArea(const NormalConeTree& scene, const NormalConeTree& part,
+                   const RigidTransform& sceneFromPart, double cutoff, LmdSet& set);
 
  private:
   /// @param find  Maps (LmdScratch&, std::span<Lmd>) to LmdResult.

@@ -64,7 +64,14 @@ TEST_F(PlaceFeel, TheSummaryTellsTheModeAndItsNumbers) {
   EXPECT_THAT(placeCone({"--fast", "--mode", "proxy", "--margin", "0.002", "--friction", "0.25"}).out,
               AllOf(HasSubstr("mode        proxy, margin 0.002 m, friction 0.25\n"),
                     HasSubstr("\ncoupling    "), HasSubstr(" per tick, "), HasSubstr("\nproxy       p50 ")));
+  EXPECT_THAT(placeCone({"--fast", "--one-per-area"}).out,
+              AllOf(HasSubstr("within 0.1 m, one spring for each area of contact\n"),
+                    HasSubstr("areas       max 1 at once\n"), Not(HasSubstr("held "))));
+  EXPECT_THAT(placeCone({"--fast", "--stiffness", "1e5"}).out,
+              HasSubstr("\nheld        springs stiffer than"));
   const auto springs = nlohmann::json::parse(placeCone({"--fast", "--json"}).out);
+  EXPECT_EQ(springs["springs"]["held_ticks"].get<int>(), 0);
+  EXPECT_FALSE(springs["springs"]["one_per_area"].get<bool>());
   EXPECT_TRUE(springs["proxy"].is_null());
   EXPECT_TRUE(springs["max_energy_to_hand"].is_number());
   const auto proxy = nlohmann::json::parse(placeCone({"--fast", "--json", "--mode", "proxy"}).out)["proxy"];

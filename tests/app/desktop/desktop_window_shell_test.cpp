@@ -221,7 +221,7 @@ void DesktopWindowShellTest::textsAreThoseThatEngineersKnow() {
        "In the view, with Shift:"},
       {"Stability limit at ", "What is passive in anyone's hand"},
       {"Device limits: ", "Enforced on what the device gets"},
-      {"Advisory limit on ", "Not enforced"},
+      {"Limit on the total stiffness ", "Advisory limit on "},
       {"Scale and orientation don't affect the manual hand; axis locks do.",
        "The manual hand takes numbers of the scene itself"},
       {"Allowed motion", "Motions that count"},

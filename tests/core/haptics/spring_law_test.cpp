@@ -42,6 +42,13 @@ TEST(SpringLaw, LinearSpringPushesByItsCompression) {
   expectNear(w.torque, {0.0, -0.12, 0.0});
 }
 
+TEST(SpringLaw, MergedAndBlockedMinimaDoNotPush) {
+  std::vector<Lmd> lmds(3, lmdAt({0.1, 0.0, 0.0}, {0.0, 0.0, 1.0}, 0.004));
+  lmds[0].isMerged = true;
+  lmds[2].isBlocked = true;
+  expectNear(wrenchOf(lmds, kUndamped).force, {0.0, 0.0, 1.2});
+}
+
 TEST(SpringLaw, PrintedLawFallsToZeroAtContactAndAtTheCutoff) {
   SpringParameters printed{.cutoff = 0.01, .stiffness = 5e4, .damping = 0.0, .law = SpringLaw::Printed};
   const auto push = [&](double d) {

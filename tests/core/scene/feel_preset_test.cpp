@@ -70,6 +70,16 @@ TEST(FeelPreset, AUsualOneChangesTheStiffnessAlone) {
   EXPECT_EQ(withPreset(before, usual(0)), expected);
 }
 
+TEST(FeelPreset, AUsualOneKeepsTheChoiceOfSpringsAndOnesOwnBringsIt) {
+  HapticSettings before = unusual();
+  before.springs.onePerArea = true;
+  EXPECT_TRUE(withPreset(before, usual(0)).springs.onePerArea);
+  FeelPreset own;
+  own.name = "Own";
+  own.settings = unusual();
+  EXPECT_FALSE(withPreset(before, own).springs.onePerArea);
+}
+
 TEST(FeelPreset, AUsualOnePushesAsMuchByEitherLaw) {
   HapticSettings printed;
   printed.mode = HapticMode::Springs;

@@ -379,6 +379,20 @@ TEST_F(SceneFile, ProxyKeepsTheLawThatTheSpringsHaveBesideIt) {
   expectSameScene(readSceneFile(file_), scene_);
 }
 
+TEST_F(SceneFile, OneSpringForEachAreaIsKeptAndAFileWithoutItHasOneForEachMinimum) {
+  HapticSettings haptics;
+  haptics.springs.onePerArea = true;
+  scene_.setHaptics(haptics);
+  writeSceneFile(scene_, file_);
+  EXPECT_TRUE(readSceneFile(file_).haptics().springs.onePerArea);
+  Json json = Json::parse(test::readBytes(file_));
+  json["haptics"]["springs"]["onePerArea"] = 1;
+  EXPECT_THAT(errorOf(json.dump()), testing::HasSubstr("haptics.springs.onePerArea: it is of type number"));
+  json["haptics"]["springs"].erase("onePerArea");
+  EXPECT_EQ(errorOf(json.dump()), "");
+  EXPECT_FALSE(readSceneFile(file_).haptics().springs.onePerArea);
+}
+
 TEST_F(SceneFile, Version1KeepsItsSpringsAndGetsTheRestOfANewScene) {
   EXPECT_EQ(errorOf(version1().dump()), "");
   const Scene scene = readSceneFile(file_);

@@ -41,11 +41,15 @@ class ServoTickOnFloor : public testing::Test {
     parameters_.haptics.mode = HapticMode::Springs;
     parameters_.haptics.springs = {
         .cutoff = 0.1, .stiffness = 50.0, .damping = 0.0, .law = SpringLaw::Linear};
-    parameters_.limits = {100.0, 100.0};
+    setLimits(100.0, 100.0);
     scene_.setMoving({PartId{7}, test::tipDownCone(kCentre), moved({5.0, 5.0, 5.0})});
     addFloor(PartId{1}, {});
   }
 
+  /// Of a device that bears any stiffness here.
+  void setLimits(double force, double torque) {
+    parameters_.limits = {.maxForce = force, .maxTorque = torque, .damping = 1e3, .rotationalDamping = 1e3};
+  }
   void addFloor(PartId id, const RigidTransform& worldFromFloor) {
     scene_.bodies.push_back({id, floor_, worldFromFloor});
   }
@@ -132,7 +136,7 @@ TEST_F(ServoTickOnFloor, NothingInHandFeelsNothing) {
 }
 
 TEST_F(ServoTickOnFloor, ForceAndTorqueRiseToTheirLimitsByLength) {
-  parameters_.limits = {1.0, 0.25};
+  setLimits(1.0, 0.25);
   EXPECT_EQ(tickAt(0.04).wrench.force, glm::dvec3(0.0)) << "not at once";
   for (double time = 0.0; time < WrenchConditioner::kRampTime; time += kPeriod)
     tickAt(0.04);
@@ -248,6 +252,8 @@ TEST_F(ServoTickOnFloor, SenselessParametersAreAFault) {
 }
 
 TEST_F(ServoTickOnFloor, AnOverflowingForceIsAFaultAndSendsNothing) {
+  // Times a compression of almost ten metres.
+  parameters_.haptics.springs.cutoff = 10.0;
   parameters_.haptics.springs.stiffness = 1e308;
   parameters_.haptics.springs.damping = 1e308;
   tickAt(0.09);
@@ -256,6 +262,25 @@ TEST_F(ServoTickOnFloor, AnOverflowingForceIsAFaultAndSendsNothing) {
   expectNear(s.unclampedWrench.force, {0.0, 0.0, 0.0}, 0.0);
   parameters_.haptics.springs = {};
   EXPECT_EQ(tickAt(0.04).fault, ServoFault::WrenchNotFinite) << "latched";
+}
+
+TEST_F(ServoTickOnFloor, SpringsStifferThanTheDeviceBearsAreHeldToIt) {
+  parameters_.limits = {
+      100.0, 100.0};  // 1 N s/m: 2000 N/m at 1 kHz. The lever of half a metre asks for half of that.
+  parameters_.haptics.springs.stiffness = 1e4;
+  const ServoSnapshot& s = tickAt(0.04);
+  EXPECT_EQ(s.areaCount, 1U);
+  EXPECT_NEAR(s.springShares.force, 0.1, 1e-9);
+  EXPECT_NEAR(s.unclampedWrench.force.z, 1000.0 * 0.06, 1e-6);
+  // 2 (1e-3 N m s/rad) / T / 2 = 1 N m/rad, where the springs have 1e4 / 4.
+  EXPECT_NEAR(s.unclampedWrench.torque.y, -1e4 * 0.06 * 0.5 / 2500.0, 1e-9);
+  // Softer ones are felt in full again, after a while.
+  parameters_.haptics.springs.stiffness = 1.0;
+  EXPECT_LT(tickAt(0.04).springShares.force, 0.2);
+  for (double time = 0.0; time < 20.0 * kShareRiseTime; time += kPeriod)
+    tickAt(0.04);
+  EXPECT_EQ(tickAt(0.04).springShares, SpringShares{});
+  EXPECT_NEAR(snapshot_->unclampedWrench.force.z, 0.06, 1e-9);
 }
 
 TEST(ServoFaultReason, EveryFaultHasOne) {
@@ -272,7 +297,7 @@ TEST_F(ServoTickOnFloor, OfTooManyMinimaTheNearestAreShownGroupedByPartAndAllAre
   // The farthest floor first, each 10 um above the one before.
   for (std::uint32_t i = 0; i < kFloors; ++i)
     addFloor(PartId{100 + i}, moved({0.0, 0.0, 1e-5 * i}));
-  parameters_.limits = {1e6, 1e6};
+  setLimits(1e6, 1e6);
   const double height = 0.05;
   const RigidTransform pose = moved(kAside + glm::dvec3(0.0, 0.0, height));
   const ServoSnapshot& s = tickOf(trackedAt(pose), pose);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/haptics/device_limits.h"
+#include "core/haptics/spring_bound.h"
 #include "core/haptics/virtual_coupling.h"
 
 namespace nearfit::ui {
@@ -18,6 +19,7 @@ struct CouplingBasis {
   std::optional<CouplingState> inForce;
   /// Number of springs that push; only while the servo runs in a spring mode.
   std::optional<std::uint32_t> springs;
+  SpringShares shares;  ///< What the bound lets through of them.
 };
 
 }  // namespace nearfit::ui

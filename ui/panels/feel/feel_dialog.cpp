@@ -193,9 +193,13 @@ void FeelDialog::showSnapshot(const ServoSnapshot& snapshot) {
   basis_.period = snapshot.period;
   basis_.inForce.reset();
   basis_.springs.reset();
+  basis_.shares = {};
   if (snapshot.fault == ServoFault::None) {
     if (snapshot.mode == HapticMode::Proxy) basis_.inForce = snapshot.coupling;
-    if (snapshot.mode == HapticMode::Springs) basis_.springs = snapshot.lmdCount;
+    if (snapshot.mode == HapticMode::Springs) {
+      basis_.springs = snapshot.areaCount;
+      basis_.shares = snapshot.springShares;
+    }
   }
   if (isVisible()) showBasis();
 }
@@ -205,6 +209,7 @@ void FeelDialog::clearSnapshot() {
   basis_.period = usual.period;
   basis_.inForce.reset();
   basis_.springs.reset();
+  basis_.shares = {};
   showBasis();
 }
 

@@ -50,6 +50,11 @@ SpringPage::SpringPage(QWidget* parent) : FeelPage(parent) {
   form->addRow(linearLabel_, linear_);
   form->addRow(printedLabel_, printed_);
   form->addRow(tr("Damping"), damping);
+  form->addRow(
+      addSwitch(QStringLiteral("onePerArea"), tr("One spring for each area of contact"),
+                tr("The facets of a curved contact give many minima. On: only the nearest one of each area "
+                   "pushes, so that finer meshes feel alike. Off: every minimum pushes, as in the paper"),
+                [](HapticSettings& s) -> bool& { return s.springs.onePerArea; }));
   limits_ = addNote();
   limits_->setObjectName(QStringLiteral("springLimits"));
   bound_ = addNote();
@@ -79,26 +84,27 @@ void SpringPage::refresh() {
 
 void SpringPage::showBound() {
   const SpringParameters& springs = settings().springs;
-  const bool isLinear = springs.law == SpringLaw::Linear;
   const DeviceLimits device = limitsAtHandle(basis_.device, settings().mapping.scale);
-  const double count = basis_.springs.value_or(1);
-  const double most = stiffnessBound(device.damping, count * springs.damping, basis_.period);
-  // The slope of the printed law is at most stiffness times cutoff.
-  const double each = most / (std::max(count, 1.0) * (isLinear ? 1.0 : springs.cutoff));
-  const QString unit = isLinear ? tr(" N/m") : tr(" N/m²");
-  QString text =
-      tr("Advisory limit on the total stiffness of springs along one line: stable with any hand up to %1 "
-         "N/m, at a servo period of %2 and a device damping of %3 N·s/m")
-          .arg(formatNumber(most), formatDuration(basis_.period), formatNumber(device.damping));
-  const bool isKnown = basis_.springs && *basis_.springs > 0;
-  text += isKnown ? tr("; shared by the springs of all minima, now %n: %1%2 each.", nullptr,
-                       static_cast<int>(*basis_.springs))
-                        .arg(formatNumber(each), unit)
-                  : tr("; shared by the springs of all minima.");
+  const double count = std::max(basis_.springs.value_or(1), std::uint32_t{1});
+  const double damping = std::min(count * springs.damping, kMaxDampingShare * device.damping);
+  const double most = stiffnessBound(device.damping, damping, basis_.period);
+  QString text = tr("Limit on the total stiffness of springs along one line: stable with any hand up to %1 "
+                    "N/m, at a servo "
+                    "period of %2 and a device damping of %3 N·s/m; turns have a limit of their own. What is "
+                    "stiffer is held "
+                    "back to it.")
+                     .arg(formatNumber(most), formatDuration(basis_.period), formatNumber(device.damping));
+  const bool isHeld = basis_.springs && basis_.shares.isHeld();
+  if (isHeld) {
+    text += tr(" Springs now: %1; felt of them: %2 % of the force, %3 % of the torque.")
+                .arg(*basis_.springs)
+                .arg(formatNumber(100.0 * basis_.shares.force), formatNumber(100.0 * basis_.shares.torque));
+  } else if (basis_.springs) {
+    text += tr(" Springs now: %1, felt in full.").arg(*basis_.springs);
+  }
   bound_->setText(text);
-  const bool isBeyond = isKnown && springs.stiffness > each;
   const QString style =
-      QStringLiteral("color: %1").arg((isBeyond ? colours::kWarning : colours::kMutedText).name());
+      QStringLiteral("color: %1").arg((isHeld ? colours::kWarning : colours::kMutedText).name());
   // Runs sixty times a second: setting a style is expensive.
   if (bound_->styleSheet() != style) bound_->setStyleSheet(style);
 }

@@ -14,7 +14,7 @@ namespace nearfit::ui {
 
 class LocksPage;
 
-/// Stiffness and damping of the springs, with what is enforced on their sum and what is not.
+/// Stiffness, damping and number of the springs, with what is enforced on their sum.
 class SpringPage : public FeelPage {
   Q_OBJECT
 

@@ -24,10 +24,10 @@ std::string textOf(const HapticSettings& haptics) {
   const WeightSettings& w = haptics.weight;
   const WorkspaceMapping& m = haptics.mapping;
   std::string text =
-      fmt::format("{} {:a} {:a} {:a} {} {:a} {:a} {} {:a} {:a} {:a} {:a} {} {} {:a}",
+      fmt::format("{} {:a} {:a} {:a} {} {} {:a} {:a} {} {:a} {:a} {:a} {:a} {} {} {:a}",
                   static_cast<int>(haptics.mode), s.cutoff, s.stiffness, s.damping, static_cast<int>(s.law),
-                  haptics.proxy.margin, haptics.proxy.friction, c.isAutomatic, c.stiffness, c.damping,
-                  c.rotationalStiffness, c.rotationalDamping, w.hasWeight, w.hasInertia, m.scale);
+                  s.onePerArea, haptics.proxy.margin, haptics.proxy.friction, c.isAutomatic, c.stiffness,
+                  c.damping, c.rotationalStiffness, c.rotationalDamping, w.hasWeight, w.hasInertia, m.scale);
   for (std::size_t i = 0; i < 3; ++i)
     text += fmt::format(" {}{}", m.translationLocks[i], m.rotationLocks[i]);
   return text;

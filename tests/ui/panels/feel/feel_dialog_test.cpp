@@ -35,8 +35,9 @@ class FeelDialogTest : public QObject {
   void aTickOfBeforeAWishIsNotItsLimit();
   void aPresetBeyondTheBoundIsShownAsHeld();
   void automaticCouplingShowsWhatIsInForce();
-  void springsTellWhatIsEnforcedAndWhatIsNot();
+  void springsTellWhatIsEnforced();
   void springsBeyondWhatIsPassiveAreMarked();
+  void oneSpringForEachAreaIsAsked();
   void anglesOfTheOrientationBecomeAQuaternion();
   void locksAreSixSwitches();
   void returnInAFieldDoesNotClose();
@@ -249,7 +250,7 @@ void FeelDialogTest::automaticCouplingShowsWhatIsInForce() {
   QVERIFY(field("couplingStiffness")->isEnabled());
 }
 
-void FeelDialogTest::springsTellWhatIsEnforcedAndWhatIsNot() {
+void FeelDialogTest::springsTellWhatIsEnforced() {
   show(withSprings({0.01, 200.0, 0.0, SpringLaw::Linear}));
   DeviceLimits device;
   device.maxForce = 8.0;
@@ -262,7 +263,7 @@ void FeelDialogTest::springsTellWhatIsEnforcedAndWhatIsNot() {
               .contains(QStringLiteral("at most 8 N and 0.5 N·m, changing by at most 1600 N/s "
                                        "and 100 N·m/s")));
   // 2 b / T, in all.
-  QVERIFY(note("springBound").startsWith(QStringLiteral("Advisory limit")));
+  QVERIFY(note("springBound").startsWith(QStringLiteral("Limit on the total stiffness")));
   QVERIFY2(note("springBound").contains(QStringLiteral("up to 3000 N/m, at a servo period of 1.00 ms")),
            qPrintable(note("springBound")));
   QVERIFY(!note("springBound").contains(QStringLiteral("now")));
@@ -282,24 +283,38 @@ void FeelDialogTest::springsBeyondWhatIsPassiveAreMarked() {
   ServoSnapshot snapshot;
   snapshot.mode = HapticMode::Springs;
   snapshot.period = 2e-3;
-  snapshot.lmdCount = 3;
+  snapshot.lmdCount = 30;
+  snapshot.areaCount = 3;
   dialog_->showSnapshot(snapshot);
   // 2 (1 - 3 * 0.05) / 2 ms = 850 N/m, for three.
   QVERIFY2(note("springBound").contains(QStringLiteral("up to 850 N/m, at a servo period of 2.00 ms")),
            qPrintable(note("springBound")));
-  QVERIFY(note("springBound").contains(QStringLiteral("now 3: 283.3 N/m each")));
+  QVERIFY(note("springBound").endsWith(QStringLiteral("Springs now: 3, felt in full.")));
   const QString calm = widget<QLabel>("springBound")->styleSheet();
-  snapshot.lmdCount = 10;
+  snapshot.areaCount = 40;
+  snapshot.springShares = {0.25, 0.5, 0.1};
   dialog_->showSnapshot(snapshot);
-  // 2 (1 - 10 * 0.05) / 2 ms, a tenth of it each: less than 200.
-  QVERIFY(note("springBound").contains(QStringLiteral("now 10: 50 N/m each")));
+  // Damping has half of the device's at most: 2 (1 - 0.5) / 2 ms.
+  QVERIFY2(note("springBound").contains(QStringLiteral("up to 500 N/m")), qPrintable(note("springBound")));
+  QVERIFY2(
+      note("springBound")
+          .endsWith(QStringLiteral("Springs now: 40; felt of them: 25 % of the force, 50 % of the torque.")),
+      qPrintable(note("springBound")));
   QVERIFY(widget<QLabel>("springBound")->styleSheet() != calm);
-  // As printed a spring's slope is its stiffness times the cutoff at most.
-  show(withSprings({0.01, 200.0, 0.05, SpringLaw::Printed}));
-  QVERIFY(note("springBound").contains(QStringLiteral("5000 N/m² each")));
-  QCOMPARE(widget<QLabel>("springBound")->styleSheet(), calm);
   dialog_->clearSnapshot();
   QVERIFY(!note("springBound").contains(QStringLiteral("now")));
+  QCOMPARE(widget<QLabel>("springBound")->styleSheet(), calm);
+}
+
+void FeelDialogTest::oneSpringForEachAreaIsAsked() {
+  show(withSprings({0.01, 200.0, 0.0, SpringLaw::Linear}));
+  QVERIFY(!widget<QCheckBox>("onePerArea")->isChecked());
+  dialog_->show();
+  QTest::mouseClick(widget<QCheckBox>("onePerArea"), Qt::LeftButton, {}, QPoint(8, 8));
+  QVERIFY(edited_ && edited_->springs.onePerArea);
+  HapticSettings expected = withSprings({0.01, 200.0, 0.0, SpringLaw::Linear});
+  expected.springs.onePerArea = true;
+  QVERIFY(*edited_ == expected);
 }
 
 void FeelDialogTest::anglesOfTheOrientationBecomeAQuaternion() {
