@@ -59,7 +59,8 @@ struct PlaneRegion {
 /// precision. Empty if the triangle has no area. O(n log n) in the face.
 PlaneRegion planeRegion(const TriangleMesh& mesh, std::uint32_t triangle);
 
-/// Connected triangles whose corners lie on one cylinder.
+/// Connected triangles whose corners lie on one cylinder, or on a flat facet between two lines along it: where a slot
+/// or hole cuts a facet, it has corners nearer to the axis.
 struct CylinderRegion {
   std::vector<std::uint32_t> triangles;
   Circle cylinder;      ///< Its centre is at the middle of the region's length.

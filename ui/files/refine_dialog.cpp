@@ -80,6 +80,8 @@ class RefineDialog : public QDialog {
 
   QCheckBox* automatic_;
   NumberField *chord_, *angle_;
+  /// The values at first, and the same as the fields round them.
+  Tessellation present_, rounded_;
 };
 
 RefineDialog::RefineDialog(const Present& present, QWidget* parent)
@@ -111,6 +113,8 @@ RefineDialog::RefineDialog(const Present& present, QWidget* parent)
   const Tessellation& effective = present.effective;
   chord_->showQuantity(effective.chord > 0.0 ? effective.chord : kUnknown.chord);
   angle_->showQuantity(effective.angle > 0.0 ? effective.angle : kUnknown.angle);
+  present_ = present.asked == Tessellation{} ? effective : present.asked;
+  rounded_ = {chord_->quantity(), angle_->quantity()};
   const auto setAutomatic = [this](bool isOn) {
     chord_->setEnabled(!isOn);
     angle_->setEnabled(!isOn);
@@ -162,7 +166,12 @@ void RefineDialog::scale(double chordFactor, double angleFactor) {
 }
 
 Tessellation RefineDialog::tessellation() const {
-  return automatic_->isChecked() ? Tessellation{} : Tessellation{chord_->quantity(), angle_->quantity()};
+  if (automatic_->isChecked()) return {};
+  // What was not touched has not changed by a rounding.
+  Tessellation wanted{chord_->quantity(), angle_->quantity()};
+  if (wanted.chord == rounded_.chord && present_.chord > 0.0) wanted.chord = present_.chord;
+  if (wanted.angle == rounded_.angle && present_.angle > 0.0) wanted.angle = present_.angle;
+  return wanted;
 }
 
 }  // namespace

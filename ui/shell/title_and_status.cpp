@@ -7,6 +7,7 @@
 #include <QMainWindow>
 #include <QStyleOption>
 #include <QStylePainter>
+#include <QThread>
 #include <QTimer>
 #include <QToolTip>
 #include <algorithm>
@@ -143,12 +144,22 @@ NoteBar::NoteBar(Session& session, QWidget* parent) : QStatusBar(parent), sessio
 void NoteBar::note(const QString& text) {
   showMessage(text, kNoteTime);
   state_.reset();
+  loopLevel_ = QThread::currentThread()->loopLevel();
   QTimer::singleShot(0, this, [this] { state_ = session_.stateSerial(); });
 }
 
 void NoteBar::endAtCommandsOf(const QMainWindow& window) {
   for (const QAction* action : window.findChildren<QAction*>())
-    connect(action, &QAction::triggered, this, &NoteBar::endNote);
+    connect(action, &QAction::triggered, this, &NoteBar::endNoteOfOtherCommand);
+}
+
+void NoteBar::endNoteOfOtherCommand() {
+  // A command hears of its trigger before this does. One that runs dialogs has notes from their event loops.
+  const int level = QThread::currentThread()->loopLevel();
+  if (loopLevel_ > level)
+    loopLevel_ = level;
+  else
+    endNote();
 }
 
 void NoteBar::endNote() {

@@ -66,11 +66,14 @@ class NoteBar : public QStatusBar {
  private:
   /// Ends a note that is not of this moment.
   void endNote();
+  /// Ends the note when a command has run, unless the command itself raised it.
+  void endNoteOfOtherCommand();
   /// Returns the room left of the permanent widgets.
   QRect room() const;
 
   Session& session_;
   std::optional<std::uint64_t> state_;  ///< Serial of the state that the note is about.
+  int loopLevel_ = 0;                   ///< Level of the event loop in which the note was raised.
   Subscription changes_;
 };
 

@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
@@ -292,6 +293,64 @@ TEST(RoundWalls, AWallOfSliversThatBlendsIntoAnotherHasItsAxisEverywhere) {
     EXPECT_NEAR(picked->feature.radius, BlendedPipe::kRadius, 1e-3 * BlendedPipe::kRadius) << t;
     const glm::dvec3 off = picked->feature.point - pipe.pose.translation;
     EXPECT_NEAR(glm::length(off - glm::dot(off, axis) * axis), 0.0, 1e-3 * BlendedPipe::kRadius) << t;
+  }
+}
+
+/// A wall about z of strips of random widths, every third a sliver, some of them cut by a slot at the lower end, whose
+/// corners lie between the lines along the wall.
+TriangleMesh slottedWall(std::uint64_t seed) {
+  constexpr std::uint32_t kStrips = 36, kFirstCut = 4, kLastCut = 9, kPiece = 6;
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<> wide(0.15, 0.45), share(0.2, 0.3);
+  std::vector<double> angles{0.0};
+  for (std::uint32_t i = 0; i < kStrips; ++i)
+    angles.push_back(angles.back() + (i % 3 == 2 ? 0.004 : wide(random)));
+  const double turn = angles.back();
+  std::vector<glm::dvec3> vertices;
+  for (std::uint32_t i = 0; i < kStrips; ++i) {
+    const double angle = angles[i] * 2.0 * kPi / turn;
+    const bool isCut = i > kFirstCut && i <= kLastCut + 1;
+    const glm::dvec3 aside(kOuter * std::cos(angle), kOuter * std::sin(angle), 0.0);
+    vertices.push_back(aside + glm::dvec3(0.0, 0.0, isCut ? 0.3 * kHeight : 0.0));
+    vertices.push_back(aside + glm::dvec3(0.0, 0.0, kHeight));
+  }
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < kStrips; ++i) {
+    const std::uint32_t j = (i + 1) % kStrips, top = 2 * i + 1;
+    std::uint32_t from = 2 * i;
+    if (i >= kFirstCut && i <= kLastCut) {
+      double across = 0.0;
+      for (int k = 0; k < 3; ++k) {
+        across += share(random);
+        glm::dvec3 p = glm::mix(vertices[top], vertices[2 * j + 1], across);
+        p.z = (0.31 + 0.01 * k) * kHeight;
+        const auto corner = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back(p);
+        triangles.push_back({top, from, corner});
+        from = corner;
+      }
+    }
+    // Of one of them only a piece is left, which ends between the lines.
+    if (i != kPiece) triangles.insert(triangles.end(), {{top, from, 2 * j}, {top, 2 * j, 2 * j + 1}});
+  }
+  return test::inSinglePrecision(TriangleMesh(std::move(vertices), std::move(triangles)));
+}
+
+// Strips of a cylinder's wall that its ports cut were flat faces.
+TEST(RoundWalls, StripsThatASlotCutsBelongToTheWall) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const TriangleMesh mesh = slottedWall(seed);
+    for (std::uint32_t t = 0; t < mesh.triangles().size(); ++t) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", triangle " << t);
+      const Triangle& c = mesh.triangles()[t];
+      const glm::dvec3 middle = (mesh.vertices()[c[0]] + mesh.vertices()[c[1]] + mesh.vertices()[c[2]]) / 3.0;
+      const auto picked = pickFeature(mesh, {t, middle}, 0.0);
+      ASSERT_TRUE(picked);
+      ASSERT_EQ(picked->feature.shape, FeatureShape::Axis);
+      EXPECT_NEAR(std::abs(picked->feature.direction.z), 1.0, 1e-9);
+      EXPECT_NEAR(picked->feature.radius, kOuter, 1e-6);
+      EXPECT_EQ(picked->triangles.size(), mesh.triangles().size());
+    }
   }
 }
 

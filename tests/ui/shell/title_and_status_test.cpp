@@ -2,10 +2,12 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QEventLoop>
 #include <QHelpEvent>
 #include <QLabel>
 #include <QMainWindow>
 #include <QStatusBar>
+#include <QTimer>
 #include <QToolTip>
 #include <QtTest>
 #include <memory>
@@ -26,6 +28,7 @@ class TitleAndStatusTest : public QObject {
   void numbersStayWhereTheyAre();
   void aNoteEndsWithTheStateThatItIsAbout();
   void aNoteEndsWhenTheNextCommandStarts();
+  void aCommandThatRunsADialogKeepsItsOwnNote();
   void aNoteThatIsTooLongIsElidedAndItsToolTipIsAll();
   void aLongNoteTakesTheRoomOfNumbersThatAreNotThere();
 };
@@ -110,6 +113,26 @@ void TitleAndStatusTest::aNoteEndsWhenTheNextCommandStarts() {
   QTest::qWait(20);
   keep.trigger();
   QCOMPARE(bar.currentMessage(), QStringLiteral("Kept to point of plate"));
+}
+
+/// "Nothing to refine" was gone at once.
+void TitleAndStatusTest::aCommandThatRunsADialogKeepsItsOwnNote() {
+  Session session;
+  QMainWindow window;
+  ui::NoteBar bar(session, &window);
+  QAction refine(&window), measure(&window);
+  connect(&refine, &QAction::triggered, &bar, [&bar] {
+    QEventLoop dialog;
+    QTimer::singleShot(0, &dialog, [&bar] { bar.note(QStringLiteral("Nothing to refine")); });
+    QTimer::singleShot(20, &dialog, &QEventLoop::quit);
+    dialog.exec();
+  });
+  bar.endAtCommandsOf(window);
+  refine.trigger();
+  QTest::qWait(20);
+  QCOMPARE(bar.currentMessage(), QStringLiteral("Nothing to refine"));
+  measure.trigger();
+  QCOMPARE(bar.currentMessage(), QString());
 }
 
 void TitleAndStatusTest::aNoteThatIsTooLongIsElidedAndItsToolTipIsAll() {

@@ -16,6 +16,7 @@ struct Legends {
     ui::ClearanceLegend::Scale scale;
     scale.range = 1e-3;
     map.showScale(scale);
+    glyphs.hide();
     view.show();
   }
   bool areApart() const { return !map.geometry().intersects(glyphs.geometry()); }
@@ -41,8 +42,8 @@ class ClearanceLegendTest : public QObject {
 
 void ClearanceLegendTest::givesWayToTheOtherLegend() {
   Legends l;
-  l.glyphs.show();
   const QPoint usual = l.map.pos();
+  l.glyphs.show();
   for (const QPoint& at : {QPoint(14, 14), QPoint(60, 40), QPoint(14, 200)}) {
     l.glyphs.move(at);
     QTRY_VERIFY(l.areApart() && l.areInView());
