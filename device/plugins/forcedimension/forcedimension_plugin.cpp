@@ -196,6 +196,8 @@ class DhdDevice final : public NearfitDevice {
     for (int poses = 0; !isEnding_.load(std::memory_order_acquire); ++poses) {
       work();
       if (exchange().isLost()) {
+        // If it hears again, it must not push on as it was told last.
+        api_.setWrench(0, 0, 0, 0, 0, 0, 0, id_);
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
         continue;
       }

@@ -51,8 +51,9 @@ NearfitDeviceDescription descriptionOf(const InverseListing& listing) {
 class InverseDevice final : public NearfitDevice {
  public:
   explicit InverseDevice(InverseListing listing)
-      : listing_(std::move(listing)), description_(descriptionOf(listing_)), link_(servicePort()) {
-    take(link_.receive());
+      : listing_(std::move(listing)), description_(descriptionOf(listing_)) {
+    link_.emplace(servicePort());
+    take(link_->receive());
     exchangeOnce(/*isLast=*/false);
     thread_ = std::thread([this] { run(); });
   }
@@ -88,7 +89,7 @@ class InverseDevice final : public NearfitDevice {
         if (exchange().waitForWrench(monotonicNow() + kInverseAnswer)) {
           // What comes back is older than the next pose: its only use is that the service waits for nothing.
           send(exchange().wrenchNow());
-          link_.receive();
+          link_->receive();
         }
         next = std::max(next + kInversePeriod, monotonicNow());
         waitUntil(next);
@@ -96,14 +97,16 @@ class InverseDevice final : public NearfitDevice {
       exchangeOnce(true);
     } catch (const std::exception&) {
       say("the Haply Inverse Service ended, or the device was unplugged");
+      // The service lets a device rest once nobody commands it.
+      link_.reset();
       exchange().lose();
     }
   }
   void exchangeOnce(bool isLast) {
     send(isLast ? plugin::PluginWrench{} : exchange().wrenchNow());
-    take(link_.receive());
+    take(link_->receive());
   }
-  void send(const plugin::PluginWrench& wrench) { link_.send(forceCommand(listing_, wrench.force)); }
+  void send(const plugin::PluginWrench& wrench) { link_->send(forceCommand(listing_, wrench.force)); }
 
   void take(const std::string& message) {
     const Nanoseconds arrived = monotonicNow();
@@ -133,7 +136,7 @@ class InverseDevice final : public NearfitDevice {
 
   const InverseListing listing_;
   const NearfitDeviceDescription description_;
-  ServiceLink link_;
+  std::optional<ServiceLink> link_;  ///< Empty once it is broken.
   InverseState state_;
   int absent_ = 0;  ///< Messages in a row.
   std::atomic<bool> isCalibrated_{false}, isEnding_{false};

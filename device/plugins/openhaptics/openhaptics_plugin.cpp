@@ -32,6 +32,8 @@ constexpr double kRotationalDamping = 1e-3;  // [N m s/rad]; an estimate on the 
 /// max that it names tells the unit, whatever a driver's version takes it for.
 constexpr double kLargestTorque = 10.0;
 
+/// The servo answers in some 50 us. The scheduler gives a callback most of a millisecond, which all devices share.
+constexpr Nanoseconds kHdAnswer = 200'000;
 /// Errors that one frame may leave; more are of the same cause.
 constexpr int kMaxErrorsInFrame = 8;
 /// Until the scheduler has run a callback once more, at most; one that stalls does not.
@@ -216,7 +218,6 @@ class HdDevice final : public NearfitDevice {
   /// Scheduler's thread.
   HdCallbackCode tick() noexcept {
     const bool isLast = isEnding_.load(std::memory_order_acquire);
-    NearfitDevicePose pose{};
     std::array<double, 16> matrix{};  // Column by column, as OpenGL has it.
     std::array<double, 3> velocity{};
     int buttons = 0;
@@ -224,6 +225,11 @@ class HdDevice final : public NearfitDevice {
     api_.getDoublev(hd::kCurrentTransform, matrix.data());
     api_.getDoublev(hd::kCurrentVelocity, velocity.data());
     api_.getIntegerv(hd::kCurrentButtons, &buttons);
+    if (!isLast) {
+      publish(matrix, velocity, buttons);
+      // The force belongs to this pose: in the next frame it would be a millisecond late.
+      exchange().waitForWrench(monotonicNow() + kHdAnswer);
+    }
     send(isLast ? plugin::PluginWrench{} : exchange().wrenchNow());
     api_.endFrame(handle_);
     const std::uint32_t error = takeErrors(api_);
@@ -232,6 +238,14 @@ class HdDevice final : public NearfitDevice {
       return kHdDone;
     }
     if (error != hd::kSuccess) take(error);
+    hasFailed_ = error != hd::kSuccess;
+    return kHdContinue;
+  }
+  void publish(const std::array<double, 16>& matrix, const std::array<double, 3>& velocity,
+               int buttons) noexcept {
+    // While frames fail nothing in them need be true.
+    if (hasFailed_) return;
+    NearfitDevicePose pose{};
     const glm::dmat3 turn({matrix[0], matrix[1], matrix[2]}, {matrix[4], matrix[5], matrix[6]},
                           {matrix[8], matrix[9], matrix[10]});
     plugin::put(kMetre * kHdFrame.fromMaker(glm::dvec3(matrix[12], matrix[13], matrix[14])), pose.position);
@@ -240,9 +254,7 @@ class HdDevice final : public NearfitDevice {
                 pose.velocity);
     pose.buttons = static_cast<std::uint32_t>(buttons);
     if (isCalibrated_.load(std::memory_order_acquire)) pose.flags = NEARFIT_DEVICE_CALIBRATED;
-    // After an error nothing in the frame need be true.
-    if (error == hd::kSuccess) exchange().publish(pose, monotonicNow());
-    return kHdContinue;
+    exchange().publish(pose, monotonicNow());
   }
   void send(const plugin::PluginWrench& wrench) noexcept {
     const glm::dvec3 force = kHdFrame.toMaker(wrench.force);
@@ -279,6 +291,7 @@ class HdDevice final : public NearfitDevice {
   HdSchedulerHandle task_ = 0;
   NearfitDeviceDescription description_;
   HdEnum style_ = hd::kCalibrationAuto;
+  bool hasFailed_ = false;    ///< Scheduler's: the last frame ended with an error.
   double torqueUnit_ = 1e-3;  ///< Of what the driver calls 1, in N m.
   std::atomic<bool> isCalibrated_{false}, isEnding_{false}, hasEnded_{false};
   std::atomic<std::uint32_t> error_{hd::kSuccess};  ///< The first since the last reset.
