@@ -1,13 +1,12 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 
 #include "device/plugins/kit/maker_library.h"
 
 /// The part of Force Dimension's SDK that the plug-in uses, declared from its public documentation (DHD and DRD
-/// reference of SDK 3.7 to 3.17 on forcedimension.com; its functions take and return plain C types). Values of the
-/// constants: forcedimension-python, an open binding (D. Chow), which has them from the same reference; those of
-/// the cause of forces off, and of the newer devices, from the reference itself.
+/// reference, SDK 3.7 to 3.17, on forcedimension.com). Values of the constants: forcedimension-python, an open binding
+/// (D. Chow); the cause of forces off and the delta.6 are not in it, and are as AMBF, an open simulator, has them.
 namespace nearfit::forcedimension {
 
 namespace dhd {
@@ -52,7 +51,7 @@ struct DhdApi {
   bool (*isInitialized)(char) = nullptr;
   int (*autoInit)(char) = nullptr;
   int (*stopRegulation)(bool, char) = nullptr;
-  /// Of newer versions; null before: the limit set in the device [N], negative if there is none.
+  /// Of newer versions; null before: the limit set in the device [N], negative if there is none. Only lowers ours.
   double (*getMaxForce)(char) = nullptr;
 
   bool canCalibrate() const noexcept {

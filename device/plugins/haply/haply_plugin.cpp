@@ -47,7 +47,8 @@ NearfitDeviceDescription descriptionOf(const InverseListing& listing) {
   return out;
 }
 
-/// An Inverse3 with a connection and a thread of its own.
+/// An Inverse3 with a connection and a thread of its own. Its axes are taken for Nearfit's (x to the right, y away from the
+/// user, z up), as the service's examples suggest; its documents do not say so in words.
 class InverseDevice final : public NearfitDevice {
  public:
   explicit InverseDevice(InverseListing listing)

@@ -6,9 +6,9 @@
 
 /// The part of OpenHaptics' HDAPI that the plug-in uses, declared from its public documentation.
 ///
-/// Functions, their meaning, units and errors: OpenHaptics Toolkit 3.5, API Reference Guide (device, calibration and
-/// scheduler routines). Values of the constants: ManagedPhantom, an open binding (MIT, Kirurobo 2013), whose names are
-/// those of the guide; HD_CURRENT_TORQUE is not among them and is from JHaptics, another one.
+/// Functions, their meaning, units and errors: OpenHaptics Toolkit, API Reference Guide (device, calibration and scheduler
+/// routines). Values of the constants: ManagedPhantom, an open binding for C# (MIT, Kirurobo 2013), whose names are those
+/// of the guide. HD_CURRENT_TORQUE is not in it; two open bindings differ, and 0x2701, which nothing else has, is taken.
 namespace nearfit::openhaptics {
 
 using HdHandle = std::uint32_t;           // HHD
