@@ -92,7 +92,7 @@ const char* dhdGetSystemName(char) {
   return modelNow() == 33 ? "omega.3" : modelNow() == 104 ? "sigma.7" : "omega.6";
 }
 int dhdGetSerialNumber(unsigned short* serial, char id) {
-  *serial = static_cast<unsigned short>(1000 + id);
+  *serial = static_cast<unsigned short>(54321 + id);
   return 0;
 }
 bool dhdHasWrist(char) {
