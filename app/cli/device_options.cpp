@@ -22,10 +22,17 @@ void addDeviceFileOptions(CLI::App& command, DeviceFiles& files) {
       ->group(kGroup);
 }
 
-std::vector<DeviceListing> devicesPluggedIn() {
-  const UsbBus bus;
+std::vector<DeviceListing> devicesPluggedIn(const PluginSearch& plugins) {
   std::vector<std::string> problems;
-  std::vector<DeviceListing> devices = listDevices(bus, loadPlugins(pluginFolders()), problems);
+  std::vector<DeviceListing> devices;
+  try {
+    devices = listDevices(UsbBus(), plugins, problems);
+  } catch (const DeviceError& error) {
+    // A machine without USB may still have devices that their makers' software finds.
+    devices = listPluginDevices(plugins, problems);
+    if (devices.empty()) throw;
+    problems.emplace_back(error.what());
+  }
   for (const std::string& problem : problems)
     printError("warning: " + problem);
   return devices;
@@ -39,7 +46,7 @@ std::optional<std::filesystem::path> recordingMeant(const std::string& wanted) {
 
 std::unique_ptr<HapticDevice> deviceMeant(const std::string& wanted, const DeviceFiles& files) {
   if (const auto file = recordingMeant(wanted)) return std::make_unique<ReplayDevice>(*file);
-  const std::vector<DeviceListing> devices = devicesPluggedIn();
+  const std::vector<DeviceListing> devices = devicesPluggedIn(loadPlugins(pluginFolders()));
   return makeDevice(chooseDevice(devices, wanted), files);
 }
 

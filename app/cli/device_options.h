@@ -23,7 +23,7 @@ void addDeviceFileOptions(CLI::App& command, DeviceFiles& files);
 
 /// Returns the devices that are plugged in now; prints problems of plug-ins to stderr as
 /// warnings. Throws DeviceError.
-std::vector<DeviceListing> devicesPluggedIn();
+std::vector<DeviceListing> devicesPluggedIn(const PluginSearch& plugins);
 
 /// Returns the file of a recorded hand that is named as a device, "replay:FILE"; else std::nullopt.
 std::optional<std::filesystem::path> recordingMeant(const std::string& wanted);

@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "app/cli/device_monitor.h"
+#include "app/cli/device_report.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/output.h"
 #include "app/cli/ticked_device.h"
@@ -26,18 +27,12 @@
 namespace nearfit::cli {
 namespace {
 
-/// Result of one step.
-struct TestStep {
-  enum class Result { Passed, Failed, Skipped };
-  std::string name;
-  Result result = Result::Passed;
-  std::string text;
-};
-
 using Result = TestStep::Result;
 
 /// Strength of the pushes [N]: clearly felt, and dangerous to nobody.
 constexpr double kTestForce = 0.5;
+/// Strengths of the first pushes of a device that a report is for: nobody has felt it yet [N].
+constexpr std::array kFirstForces = {0.1, 0.2, 0.3};
 
 constexpr double kWatchSeconds = 2.0, kPushSeconds = 1.0;
 /// The servo copes with half the nominal rate, with softer contact; less means a bad cable or hub.
@@ -174,18 +169,6 @@ TestStep push(TickedDevice& ticked, const std::string& name, const glm::dvec3& a
 /// Time for a device to find its handle's place while somebody moves it [s].
 constexpr double kCalibrationSeconds = 20.0;
 
-const char* resultName(Result result) {
-  switch (result) {
-    case Result::Passed:
-      return "pass";
-    case Result::Failed:
-      return "fail";
-    case Result::Skipped:
-      return "skip";
-  }
-  return "";
-}
-
 class Steps {
  public:
   explicit Steps(bool isJson) : isJson_(isJson) {}
@@ -212,6 +195,7 @@ class Steps {
     print(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   }
   std::size_t count() const { return steps_.size(); }
+  const std::vector<TestStep>& all() const { return steps_; }
 
  private:
   bool isJson_;
@@ -275,13 +259,29 @@ TestStep disarmed(TickedDevice& ticked) {
           std::string("it is ") + stateName(state) + (state == DeviceState::Ready ? ", forces are off" : "")};
 }
 
+/// True if a user at a terminal can read requests and answer them.
+bool canAsk(const DeviceTestOptions& options) {
+  return !options.isJson && ::isatty(STDIN_FILENO) == 1 && ::isatty(STDOUT_FILENO) == 1;
+}
+
+/// What a report has besides the usual steps, before any force.
+void watchForReport(TickedDevice& ticked, Steps& steps, const DeviceTestOptions& options) {
+  if (canAsk(options)) {
+    print("Take your hands off the handle, or rest it, for a second.\n");
+    flushOutput();
+  }
+  steps.add(measureNoise(ticked));
+  if (!canAsk(options)) return steps.add({"axes", Result::Skipped, "nobody is at a terminal to be asked"});
+  for (TestStep& step : askForMotions(ticked))
+    steps.add(std::move(step));
+}
+
 void testForces(TickedDevice& ticked, Steps& steps, const DeviceTestOptions& options) {
   HapticDevice& device = ticked.device();
   const DeviceInfo info = device.info();
   if (info.forceAxes == 0) return steps.add({"forces", Result::Skipped, "this device does not push"});
   const double force = std::min(kTestForce, info.limits.maxForce);
-  const bool canAsk = !options.isJson && ::isatty(STDIN_FILENO) == 1 && ::isatty(STDOUT_FILENO) == 1;
-  if (!options.hasConsent && !(canAsk && asksForConsent(ticked, force)))
+  if (!options.hasConsent && !(canAsk(options) && asksForConsent(ticked, force)))
     return steps.add({"forces", Result::Skipped, "not confirmed: type yes, or give --yes"});
   if (device.state() == DeviceState::Uncalibrated) {
     steps.add(waitForCalibration(ticked, options.isJson));
@@ -289,11 +289,15 @@ void testForces(TickedDevice& ticked, Steps& steps, const DeviceTestOptions& opt
   }
   steps.add(armed(device));
   if (steps.failed() > 0) return;
+  for (const double first : kFirstForces) {
+    if (options.report.empty() || steps.failed() > 0) break;
+    steps.add(push(ticked, fmt::format("push {:.1f} N", first), {0.0, 0.0, 1.0}, std::min(first, force)));
+  }
   const std::array<std::pair<const char*, glm::dvec3>, 3> pushes = {
       {{"push x", {1.0, 0.0, 0.0}}, {"push y", {0.0, 1.0, 0.0}}, {"push z", {0.0, 0.0, 1.0}}}};
   for (const auto& [name, axis] : pushes) {
-    steps.add(push(ticked, name, axis, force));
     if (steps.failed() > 0) break;
+    steps.add(push(ticked, name, axis, force));
   }
   steps.add(disarmed(ticked));
 }
@@ -304,16 +308,22 @@ void testDevice(HapticDevice& device, const DeviceTestOptions& options) {
   const InterruptGuard guard;
   Steps steps(options.isJson);
   std::string name;
+  DeviceInfo info;
   {
     TickedDevice ticked(device, options.isCalibrating);
-    name = device.info().name;
+    info = device.info();
+    name = info.name;
     steps.add({"open", Result::Passed, name + ", " + ticked.grant().describe()});
     for (TestStep& step : watchReports(ticked))
       steps.add(std::move(step));
+    if (!options.report.empty() && steps.failed() == 0 && !InterruptGuard::isInterrupted())
+      watchForReport(ticked, steps, options);
     // No forces on a device whose poses cannot be trusted.
     if (steps.failed() == 0 && !InterruptGuard::isInterrupted()) testForces(ticked, steps, options);
   }
   steps.printJson(name);
+  // Written whatever came of it: what failed is what its reader wants to know.
+  if (!options.report.empty()) writeDeviceReport(options.report, info, steps.all());
   if (InterruptGuard::isInterrupted()) throw Error("devices --test", "interrupted", "run it again");
   if (steps.failed() > 0) {
     throw Error(name, fmt::format("{} of {} steps failed", steps.failed(), steps.count()),

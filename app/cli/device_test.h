@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "device/interface/haptic_device.h"
 
 namespace nearfit::cli {
@@ -8,6 +10,9 @@ struct DeviceTestOptions {
   bool hasConsent = false;  ///< Allows forces; if false, a user at a terminal is asked.
   bool isJson = false;
   bool isCalibrating = false;  ///< See HapticDevice::calibrate().
+  /// Where a report for others goes (writeDeviceReport()); empty for none. The test is longer then: noise at rest, axes
+  /// by motions that a user at a terminal is asked for, and forces from 0.1 N on.
+  std::filesystem::path report;
 };
 
 /// Tests a device: opens it, watches its reports and poses and, with consent, arms it and pushes gently along

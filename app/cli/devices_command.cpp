@@ -30,6 +30,8 @@ constexpr const char* kDevicesFooter =
 /dev or a part of the name; default: the first usable device.
 --test opens the device and watches its reports and poses for 2 s. Then, only if you type yes or give --yes, it
 arms the device and pushes with at most 0.5 N for a second along each axis, while you hold the handle.
+--report OUT.json with it also measures the noise at rest, asks for a motion along each axis and begins at 0.1 N; the
+file says what was found, and holds no serial number.
 --monitor --arm arms it as soon as it is ready; it then damps motion with 2 N s/m, at most 0.5 N, none above 0.6 m/s.
 Otherwise no device is armed, and none pushes.
 Exit code: 0 even if nothing is plugged in; 1 if the chosen device is missing, is lost or fails the test.)";
@@ -41,7 +43,7 @@ constexpr int kLooksBetweenLists = 10;
 struct DevicesOptions {
   bool isJson = false, printsRules = false, watches = false, hasConsent = false, isCalibrating = false,
        isArming = false;
-  std::string monitored, tested;
+  std::string monitored, tested, report;
   CLI::Option *monitor = nullptr, *test = nullptr;
   std::optional<double> seconds;
   DeviceFiles files;
@@ -101,6 +103,8 @@ void runDevices(const DevicesOptions& options) {
     throw UsageError("--seconds", "it is for --watch and --monitor", "leave it out");
   if (options.hasConsent && options.test->empty())
     throw UsageError("--yes", "it is for --test", "leave it out");
+  if (!options.report.empty() && options.test->empty())
+    throw UsageError("--report", "it is for --test", "leave it out");
   if (options.isArming && options.monitor->empty())
     throw UsageError("--arm", "it is for --monitor", "leave it out");
   if (options.rate.isGiven() && options.monitor->empty() && options.test->empty())
@@ -117,10 +121,12 @@ void runDevices(const DevicesOptions& options) {
   if (!options.test->empty()) {
     const std::unique_ptr<HapticDevice> device = deviceMeant(options.tested, options.files);
     applyRateOptions(options.rate, *device);
-    return testDevice(*device, {options.hasConsent, options.isJson, options.isCalibrating});
+    return testDevice(*device, {options.hasConsent, options.isJson, options.isCalibrating, options.report});
   }
-  const std::vector<DeviceListing> devices = devicesPluggedIn();
-  print(options.isJson ? devicesJson(devices) : devicesText(devices));
+  const PluginSearch plugins = loadPlugins(pluginFolders());
+  const std::vector<DeviceListing> devices = devicesPluggedIn(plugins);
+  const std::vector<MissingDriver> missing = missingDrivers(plugins);
+  print(options.isJson ? devicesJson(devices, missing) : devicesText(devices, missing));
 }
 
 }  // namespace
@@ -146,6 +152,10 @@ void addDevicesCommand(CLI::App& program) {
       ->type_name("S");
   command->add_flag("--yes", options->hasConsent,
                     "Confirm the forces of --test: somebody must hold the handle");
+  command
+      ->add_option("--report", options->report,
+                   "With --test: test more, step by step, and write what was found, to send in")
+      ->type_name("FILE");
   command->add_flag("--arm", options->isArming,
                     "With --monitor: resist motion weakly, at most 0.5 N; hold the handle");
   command->add_flag("--calibrate", options->isCalibrating, kCalibrateHelp);

@@ -35,6 +35,8 @@ const char* problemName(DeviceProblem problem) {
       return "unsupported";
     case DeviceProblem::NoFirmware:
       return "no_firmware";
+    case DeviceProblem::NoDriver:
+      return "no_driver";
     case DeviceProblem::NotAnswering:
       return "not_answering";
     case DeviceProblem::Failed:
@@ -83,21 +85,26 @@ std::string dump(const Json& json) {
 
 }  // namespace
 
-std::string devicesText(std::span<const DeviceListing> devices) {
+std::string devicesText(std::span<const DeviceListing> devices, std::span<const MissingDriver> missing) {
   std::string text;
   for (const DeviceListing& device : devices)
     text += listingLine(device) + "\n";
   if (devices.empty()) text = "No supported device is plugged in.\n";
+  if (!missing.empty()) text += "Drivers of makers that are not installed:\n";
+  for (const MissingDriver& each : missing)
+    text += oneLine(fmt::format("{}: {}", each.name, each.remedy)) + "\n";
   text += "Without a device:\n";
   for (const SimulatedHand& hand : kSimulatedHands)
     text += fmt::format("{:<10}  {}: {}\n", hand.id, hand.name, hand.use);
   return text;
 }
 
-std::string devicesJson(std::span<const DeviceListing> devices) {
-  Json json{{"devices", Json::array()}, {"simulated", Json::array()}};
+std::string devicesJson(std::span<const DeviceListing> devices, std::span<const MissingDriver> missing) {
+  Json json{{"devices", Json::array()}, {"missing_drivers", Json::array()}, {"simulated", Json::array()}};
   for (const DeviceListing& device : devices)
     json["devices"].push_back(listingJson(device));
+  for (const MissingDriver& each : missing)
+    json["missing_drivers"].push_back({{"name", each.name}, {"remedy", each.remedy}});
   for (const SimulatedHand& hand : kSimulatedHands)
     json["simulated"].push_back({{"id", hand.id}, {"name", hand.name}, {"use", hand.use}});
   return dump(json);

@@ -43,6 +43,21 @@ ui::DeviceChoice noticeOf(const std::string& problem) {
   return notice;
 }
 
+constexpr const char* kMissingId = "missing ";
+
+/// Returns a grey entry for devices whose maker's driver is not there: their owner looks for them here.
+ui::DeviceChoice missingOf(const MissingDriver& missing) {
+  ui::DeviceChoice choice;
+  choice.id = kMissingId + QString::fromStdString(missing.name);
+  choice.name = QObject::tr("%1: driver not installed").arg(QString::fromStdString(missing.name));
+  choice.note = QString::fromStdString(missing.remedy + ".");
+  choice.note[0] = choice.note[0].toUpper();
+  return choice;
+}
+
+/// Looks for makers' drivers, which nothing announces, come this many polls apart.
+constexpr int kPollsPerDriverLook = 10;
+
 /// Returns the files in ~/.config/nearfit that exist under their usual names.
 DeviceFiles userFiles() {
   DeviceFiles files;
@@ -68,8 +83,9 @@ class PluggedIn final : public DeviceSource {
     }
   }
   bool hasChanged() override {
-    // Systems that announce no changes, and plug-ins, have to be polled.
-    const bool hasToLook = !plugins_.plugins.empty() || isFirst_;
+    // Systems that announce no changes, and plug-ins, have to be polled; those without a driver less often.
+    const bool hasDrivers = missing_ < plugins_.plugins.size();
+    const bool hasToLook = hasDrivers || isFirst_ || ++polls_ % kPollsPerDriverLook == 0;
     return bus_ ? hasToLook || !bus_->tellsOfChanges() || bus_->changes() != changes_ : hasToLook;
   }
   QVector<ui::DeviceChoice> list() override {
@@ -82,6 +98,10 @@ class PluggedIn final : public DeviceSource {
       choices.push_back(choiceOf(each));
     for (const std::string& each : problems)
       choices.push_back(noticeOf(each));
+    const std::vector<MissingDriver> missing = missingDrivers(plugins_);
+    missing_ = missing.size();
+    for (const MissingDriver& each : missing)
+      choices.push_back(missingOf(each));
     return choices;
   }
   QString find(const QString& wanted) override {
@@ -103,12 +123,14 @@ class PluggedIn final : public DeviceSource {
   PluginSearch plugins_;
   std::vector<DeviceListing> devices_;
   std::uint64_t changes_ = 0;
+  std::size_t missing_ = 0;  ///< Plug-ins whose maker's driver was not there.
+  int polls_ = 0;
   bool isFirst_ = true;
 };
 
-/// False for a notice of a plug-in.
+/// False for a notice of a plug-in, and for a driver that is missing.
 bool isDevice(const ui::DeviceChoice& choice) {
-  return !choice.id.isEmpty();
+  return !choice.id.isEmpty() && !choice.id.startsWith(kMissingId);
 }
 
 ui::DeviceChoice noDevice() {
@@ -117,10 +139,12 @@ ui::DeviceChoice noDevice() {
     kinds << QString::fromStdString(kind);
   ui::DeviceChoice notice;
   notice.name = QObject::tr("No device is plugged in.");
-  notice.note = QObject::tr(
-                    "Supported devices: %1; others need a plug-in. See resources/docs/devices.md for what "
-                    "each needs. A device appears here as soon as you plug it in.")
-                    .arg(kinds.join(QStringLiteral(", ")));
+  notice.note =
+      QObject::tr(
+          "Supported devices: %1; and with their makers' drivers, those of 3D Systems, Force "
+          "Dimension and Haply. See resources/docs/devices.md for what each needs. A device appears "
+          "here as soon as you plug it in.")
+          .arg(kinds.join(QStringLiteral(", ")));
   return notice;
 }
 

@@ -278,9 +278,11 @@ bool ServoController::takeDeviceState() {
   // A command that is under way stays on show until it is done.
   if (status_.hand != ui::Hand::Device || !isRunning() || status_.isBusy) return false;
   const DeviceState state = device_->state();
-  const bool isArmable = device_->info().forceAxes > 0;
+  const DeviceInfo info = device_->info();
+  const bool isArmable = info.forceAxes > 0;
   const bool isArmed = isArmable && state == DeviceState::Armed;
-  const QString text = deviceText(state, isArmable, QString::fromStdString(device_->stateNote()));
+  const QString text = deviceText(state, isArmable, QString::fromStdString(device_->stateNote())) +
+                       missingAxesText(state, info);
   if (text == status_.deviceState && isArmed == status_.isArmed && isArmable == status_.isArmable)
     return false;
   status_.deviceState = text;

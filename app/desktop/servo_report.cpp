@@ -57,4 +57,13 @@ QString deviceText(DeviceState state, bool isPushing, const QString& note) {
   }
 }
 
+QString missingAxesText(DeviceState state, const DeviceInfo& info) {
+  if (state != DeviceState::Ready && state != DeviceState::Armed) return {};
+  if (info.sensedAxes == 3)
+    return QObject::tr(" It senses no turning: the part turns only where it touches.");
+  if (info.isTurningUnfelt())
+    return QObject::tr(" It has no motors for torque: you feel forces, but not what stops a turn.");
+  return {};
+}
+
 }  // namespace nearfit::desktop

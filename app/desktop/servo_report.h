@@ -35,4 +35,8 @@ class ServoMeter {
 /// @param note       HapticDevice::stateNote().
 QString deviceText(DeviceState state, bool isPushing, const QString& note);
 
+/// Returns what follows deviceText(), with a space before it: which axes the device does not sense, or senses and has no
+/// motors for. Empty if it is not in use, or has none missing.
+QString missingAxesText(DeviceState state, const DeviceInfo& info);
+
 }  // namespace nearfit::desktop

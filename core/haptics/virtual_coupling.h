@@ -63,6 +63,13 @@ CouplingState boundedCoupling(const CouplingSettings& wish, const DeviceLimits& 
 double turnScale(const CouplingState& coupling, const MassMetric& metric) noexcept;
 inline constexpr double kMinTurnScale = 0.1, kMaxTurnScale = 20.0;
 
+/// turnScale() for a device that senses turning and has no motors against it. The hand turns such a device without
+/// work. If the proxy then moved aside, its spring would push with energy that nobody gave. So the proxy turns as
+/// freely as the program's condition allows: of a force on an arm as long as the gyration, a hundredth is left that
+/// comes from turning.
+/// Source: Barbagli & Salisbury 2003, The effect of sensor/actuator asymmetries in haptic interfaces.
+inline constexpr double kTurnScaleWithoutTorque = kMinTurnScale;
+
 /// Wrench on the hand of the spring and damper from handle to part, about the centre of mass of the handle's
 /// pose; world frame. The spring's force is `stiffness` times the offset of the centres. Its torque is that
 /// of a spring whose stiffness about each principal axis of the part is proportional to the square of its

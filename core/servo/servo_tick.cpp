@@ -99,6 +99,7 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
   const HapticSettings& settings = parameters.haptics;
   clearOutputs(snapshot);
   period_ = period;
+  isTorqueFelt_ = input.isTorqueFelt;
   isToBeShown_ = false;
   snapshot.moving = scene.moving.id;
   snapshot.mode = settings.mode;
@@ -111,7 +112,9 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
   if (fault_ == ServoFault::None) fault_ = faultOfInput(settings, parameters.limits, input.pose, period);
   if (!hasPose_) handle_.pose = part_.pose = scene.moving.worldFromPart;
 
-  const DeviceLimits limits = limitsAtHandle(parameters.limits, settings.mapping.scale);
+  DeviceLimits limits = limitsAtHandle(parameters.limits, settings.mapping.scale);
+  // A torque that is not rendered gives the hand no energy back.
+  if (!isTorqueFelt_) limits.maxTorque = 0.0;
   const Tick tick{{tracked, scene, settings, snapshot}, limits, period};
   if (fault_ == ServoFault::None) {
     periodMeter_.add(period);
@@ -133,6 +136,8 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
     const Wrench damping = passivity_.damping(limits, period);
     wrench.force += damping.force;
     wrench.torque += damping.torque;
+    // Not merely clamped: it would count as a force at its limit.
+    if (!isTorqueFelt_) wrench.torque = glm::dvec3(0.0);
     const bool isUsable = isFinite(wrench.force) && isFinite(wrench.torque);
     if (fault_ == ServoFault::None && !isUsable) fault_ = ServoFault::WrenchNotFinite;
     if (fault_ == ServoFault::None) send(tick, wrench, input);
@@ -249,7 +254,8 @@ Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
     if (!areBodiesPlaced(tick)) {
       fault_ = ServoFault::PoseNotFinite;
     } else if (isPose(target.pose)) {
-      proxy_.begin(tick.tracked, target.pose, tick.settings.proxy, turnScale(coupling_, scene.metric));
+      const double scale = isTorqueFelt_ ? turnScale(coupling_, scene.metric) : kTurnScaleWithoutTorque;
+      proxy_.begin(tick.tracked, target.pose, tick.settings.proxy, scale);
       proxy_.advance(tick.tracked, kWorkOfFeel, ContactFinder::Excess::None);
       proxy_.feel(tick.tracked);
     } else {

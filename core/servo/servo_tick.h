@@ -29,6 +29,9 @@ struct ServoParameters {
 /// One servo tick: the device's pose in, wrench and snapshot out. Depends only on its inputs and the ticks
 /// before. It owns no thread and no device, and reads the clock only to measure times.
 ///
+/// A device that senses turning but renders no torque (HandleInput::isTorqueFelt) gets none, and the proxy turns as
+/// freely as it can (kTurnScaleWithoutTorque), so that a torque which cannot be shown does not become a force.
+///
 /// The device's pose becomes the handle's (WorkspaceMapper). In the proxy mode the part follows the handle as
 /// far as it can (Proxy), and the hand feels the coupling between the two. In the springs mode the part is
 /// where the handle is, and the hand feels the sum of the springs, as far as the device bears it (boundedSprings()). The
@@ -154,6 +157,7 @@ class ServoTick {
   bool isFeltAhead_ = false;  ///< `felt_` was not where the part was proved free.
   double returnEnergy_ = kMaxReturnEnergy;  ///< What it may give the hand by coming back [J].
   std::uint32_t ticksBehind_ = 0;           ///< Ticks that ended before the proxy's way, one after the other.
+  bool isTorqueFelt_ = true;                ///< HandleInput::isTorqueFelt of the last feel().
   double period_ = 0.0;                     ///< Of the last feel() [s].
   Twist partStep_;                          ///< Unfiltered twist of the part in the last tick.
   glm::dvec3 partShift_{0.0};               ///< Translation of its centre in the last tick [m].

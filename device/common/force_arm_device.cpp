@@ -19,15 +19,19 @@ constexpr std::uint8_t kClutchButton = 1;
 }  // namespace
 
 ForceArmDevice::ForceArmDevice(UsbDescription device, std::string kind, const DeviceLimits& limits,
-                               const SafetyLimits& safety)
-    : device_(std::move(device)), kind_(std::move(kind)), limits_(limits), safety_(safety) {}
+                               const SafetyLimits& safety, int sensedAxes)
+    : device_(std::move(device)),
+      kind_(std::move(kind)),
+      limits_(limits),
+      safety_(safety),
+      sensedAxes_(sensedAxes) {}
 
 std::string ForceArmDevice::name() const {
   return fmt::format("{} ({} at {})", product_.empty() ? kind_ : product_, device_.id(), device_.node());
 }
 
 DeviceInfo ForceArmDevice::info() const {
-  return {name(), 3, limits_, opened_.reportPeriod};
+  return {name(), 3, limits_, opened_.reportPeriod, true, sensedAxes_};
 }
 
 void ForceArmDevice::start(const RigidTransform&, const ProgressCallback& progress) {
@@ -80,6 +84,7 @@ bool ForceArmDevice::readHandle(HandleInput& handle) noexcept {
   // An uncalibrated pose means nothing: the part stays.
   handle.isClutched = (sample.buttons & kClutchButton) != 0 || state() == DeviceState::Uncalibrated;
   handle.hasOwnFrame = true;
+  handle.isTorqueFelt = sensedAxes_ == 3;
   handle.buttons = sample.buttons;
   handle.isArmed = stream_.supervisor().check({handle.age, glm::length(sample.velocity), false});
   return true;

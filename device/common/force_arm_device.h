@@ -42,8 +42,9 @@ class ForceArmDevice : public HapticDevice, private UsbPacketSink {
   UsbCounters linkCounters() const noexcept { return link_ ? link_->counters() : UsbCounters{}; }
 
  protected:
+  /// @param sensedAxes  6 if its handle turns and that is sensed, else 3.
   ForceArmDevice(UsbDescription device, std::string kind, const DeviceLimits& limits,
-                 const SafetyLimits& safety);
+                 const SafetyLimits& safety, int sensedAxes);
 
   /// Result of open().
   struct Opened {
@@ -80,6 +81,7 @@ class ForceArmDevice : public HapticDevice, private UsbPacketSink {
   const std::string kind_;
   const DeviceLimits limits_;
   const SafetyLimits safety_;
+  const int sensedAxes_;
   std::optional<UsbLink> link_;
   Opened opened_;
   std::string product_;

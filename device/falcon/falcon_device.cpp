@@ -70,7 +70,8 @@ bool FalconDevice::speaks(const UsbDescription& device) noexcept {
 }
 
 FalconDevice::FalconDevice(UsbDescription device, std::filesystem::path firmware, const SafetyLimits& safety)
-    : ForceArmDevice(std::move(device), "Novint Falcon", limits(), safety), firmware_(std::move(firmware)) {}
+    : ForceArmDevice(std::move(device), "Novint Falcon", limits(), safety, 3),
+      firmware_(std::move(firmware)) {}
 
 std::string FalconDevice::stateNote() const {
   return stream().note("the position of its handle is not known: pull it all the way out, then push it in");

@@ -15,6 +15,7 @@ enum class DeviceProblem : std::uint8_t {
   Gone,          ///< Absent or unplugged.
   Unsupported,   ///< Differs from what its driver expects: other endpoints, a newer version.
   NoFirmware,    ///< Needs a file that its maker supplies.
+  NoDriver,      ///< Needs its maker's driver, which is not installed or does not run.
   NotAnswering,  ///< Silent, or sends garbage.
   Failed,        ///< Anything else; the message says what.
 };

@@ -22,6 +22,14 @@ const char* faultReason(DeviceFault fault) noexcept {
       return "its reports cannot be read";
     case DeviceFault::OutOfReach:
       return "its joints are outside their range, so its calibration is wrong";
+    case DeviceFault::Hot:
+      return "its motors are too warm: let them cool down";
+    case DeviceFault::Overloaded:
+      return "it was asked for more force than it can give";
+    case DeviceFault::BrokenLink:
+      return "its connection is disturbed: plug it straight into the computer";
+    case DeviceFault::SwitchedOff:
+      return "its forces were turned off at the device";
   }
   return "";
 }

@@ -13,11 +13,15 @@ namespace nearfit {
 /// Reasons for stopping a device.
 enum class DeviceFault : std::uint8_t {
   None,
-  Silent,      ///< No pose for SafetyLimits::patience.silence.
-  TooFast,     ///< Faster than SafetyLimits::faultSpeed.
-  Reported,    ///< Reported by the device itself.
-  Garbage,     ///< Its reports cannot be decoded.
-  OutOfReach,  ///< Its joint angles are impossible: the calibration is wrong.
+  Silent,       ///< No pose for SafetyLimits::patience.silence.
+  TooFast,      ///< Faster than SafetyLimits::faultSpeed.
+  Reported,     ///< Reported by the device itself.
+  Garbage,      ///< Its reports cannot be decoded.
+  OutOfReach,   ///< Its joint angles are impossible: the calibration is wrong.
+  Hot,          ///< Its motors are too warm.
+  Overloaded,   ///< More force was asked for than it can give.
+  BrokenLink,   ///< Its connection is disturbed.
+  SwitchedOff,  ///< Its forces were turned off at the device.
 };
 
 /// Returns the reason as a sentence without a full stop; empty for None.

@@ -33,10 +33,14 @@ inline void limitSlewByMax(DeviceLimits& limits) noexcept {
 /// Properties of a device; some become known only when it is open.
 struct DeviceInfo {
   std::string name;
-  int forceAxes = 0;  ///< Axes that it can push along: 0, 3 or 6.
+  int forceAxes = 0;  ///< Axes that it can push along: 0, 3 (force) or 6 (force and torque).
   DeviceLimits limits;
   double reportPeriod = 0.0;  ///< Period of the reports that pace the servo [s]; 0: the servo sets the pace.
   bool isMapped = true;       ///< False: poses are final, and workspace mapping does not apply.
+  int sensedAxes = 6;         ///< Axes that it senses: 3 (its handle does not turn, or unseen) or 6.
+
+  /// True if the hand can turn it and feels nothing of what turning meets (HandleInput::isTorqueFelt).
+  bool isTurningUnfelt() const noexcept { return sensedAxes == 6 && forceAxes == 3; }
 };
 
 /// Reports of a device since its driver was created.

@@ -235,6 +235,7 @@ bool OpenHapDevice::readHandle(HandleInput& handle) noexcept {
   handle.isClutched = !hasPose_ || (report.buttons & kClutchButton) != 0;
   hasPose_ = stream_.hasReport();
   handle.hasOwnFrame = true;
+  handle.isTorqueFelt = capabilities_.rendersTorque;
   handle.buttons = report.buttons;
   handle.isArmed = stream_.supervisor().check(
       {handle.age, glm::length(velocity_), (report.status & PoseStatus::kDeadManHeld) != 0});

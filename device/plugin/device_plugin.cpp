@@ -12,6 +12,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/auxv.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -114,10 +115,10 @@ void checkFunctions(const fs::path& file, const NearfitDevicePlugin* functions) 
                " of the plug-in interface, but this is version " + std::to_string(NEARFIT_DEVICE_VERSION),
            "install the plug-in for this version of Nearfit");
   }
-  const bool isWhole = functions->name != nullptr && functions->count != nullptr &&
-                       functions->describe != nullptr && functions->open != nullptr &&
-                       functions->close != nullptr && functions->set_forces != nullptr &&
-                       functions->read != nullptr && functions->write != nullptr;
+  const bool isWhole =
+      functions->name != nullptr && functions->count != nullptr && functions->describe != nullptr &&
+      functions->open != nullptr && functions->close != nullptr && functions->details != nullptr &&
+      functions->set_forces != nullptr && functions->read != nullptr && functions->write != nullptr;
   if (!isWhole) refuse(file, "it lacks required functions", "ask its maker for a working version");
 }
 
@@ -126,15 +127,18 @@ void endText(char (&text)[n]) noexcept {
   text[n - 1] = '\0';
 }
 
-bool isUsable(const NearfitDeviceDescription& device) noexcept {
-  const std::array<double, 7> numbers = {device.max_force,          device.max_torque, device.damping,
-                                         device.rotational_damping, device.mass,       device.inertia,
-                                         device.max_speed};
-  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x) && x >= 0.0; }) &&
-         (device.force_axes == 0 || device.force_axes == 3 || device.force_axes == 6);
-}
-
 }  // namespace
+
+bool checkDescription(NearfitDeviceDescription& device) noexcept {
+  endText(device.name);
+  endText(device.serial);
+  const std::array<double, 8> numbers = {device.max_force,          device.max_torque, device.damping,
+                                         device.rotational_damping, device.mass,       device.inertia,
+                                         device.max_speed,          device.rate};
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x) && x >= 0.0; }) &&
+         (device.force_axes == 0 || device.force_axes == 3 || device.force_axes == 6) &&
+         (device.sensed_axes == 3 || device.sensed_axes == 6);
+}
 
 std::shared_ptr<const DevicePlugin> DevicePlugin::load(const fs::path& file) {
   std::shared_ptr<DevicePlugin> plugin(new DevicePlugin);
@@ -163,6 +167,10 @@ DevicePlugin::~DevicePlugin() {
 std::vector<NearfitDeviceDescription> DevicePlugin::devices() const {
   ErrorText error{};
   const std::int32_t count = functions_->count(error.data(), error.size());
+  if (count == NEARFIT_DEVICE_NO_DRIVER) {
+    throw DeviceError(DeviceProblem::NoDriver, name(), "its maker's driver is not installed or does not run",
+                      textOf(error));
+  }
   if (count < 0)
     throw DeviceError(DeviceProblem::Failed, name(), textOf(error),
                       "check that its maker's driver is installed");
@@ -171,9 +179,7 @@ std::vector<NearfitDeviceDescription> DevicePlugin::devices() const {
     NearfitDeviceDescription& device = found.emplace_back();
     if (functions_->describe(i, &device, error.data(), error.size()) != 0)
       throw DeviceError(DeviceProblem::Failed, name(), textOf(error), "plug the device in again");
-    endText(device.name);
-    endText(device.serial);
-    if (!isUsable(device)) {
+    if (!checkDescription(device)) {
       throw DeviceError(DeviceProblem::Unsupported, name(),
                         std::string("its description of ") + device.name + " is not valid",
                         "ask the plug-in's maker for a working version");
@@ -204,16 +210,27 @@ PluginSearch loadPlugins(const std::vector<fs::path>& folders) {
 
 std::vector<fs::path> pluginFolders() {
   std::vector<fs::path> folders;
-  if (const char* named = std::getenv("NEARFIT_PLUGINS")) {
+  // A program with more rights than its caller lets nobody's environment name code to load.
+  const bool isPrivileged = ::getauxval(AT_SECURE) != 0;
+  if (const char* named = ::secure_getenv("NEARFIT_PLUGINS")) {
     std::istringstream list(named);
     for (std::string folder; std::getline(list, folder, ':');) {
       if (!folder.empty()) folders.emplace_back(folder);
     }
     return folders;
   }
-  if (const fs::path data = userFolder(UserFiles::Data); !data.empty()) folders.push_back(data / "plugins");
-  folders.emplace_back("/usr/local/lib/nearfit/plugins");
-  folders.emplace_back("/usr/lib/nearfit/plugins");
+  if (const fs::path data = userFolder(UserFiles::Data); !isPrivileged && !data.empty())
+    folders.push_back(data / "plugins");
+  std::error_code error;
+  if (const fs::path program = fs::read_symlink("/proc/self/exe", error); !error) {
+    // Where the build puts them, and where they are once it is installed, whatever the prefix is.
+    const fs::path here = program.parent_path();
+    for (const fs::path& folder : {here / "plugins", here.parent_path() / "lib" / "nearfit" / "plugins"})
+      folders.push_back(folder);
+  }
+  for (const char* folder : {"/usr/local/lib/nearfit/plugins", "/usr/lib/nearfit/plugins"}) {
+    if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.emplace_back(folder);
+  }
   return folders;
 }
 

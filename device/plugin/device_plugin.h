@@ -28,7 +28,7 @@ class DevicePlugin {
   const std::filesystem::path& file() const noexcept { return file_; }
 
   /// Returns the devices that are plugged in, checked: finite numbers, terminated texts. Throws DeviceError
-  /// with the plug-in's own message.
+  /// with the plug-in's own message; NoDriver if it cannot do without what its maker gives out.
   std::vector<NearfitDeviceDescription> devices() const;
 
  private:
@@ -50,8 +50,13 @@ struct PluginSearch {
 /// Loads all `*.so` in the folders, by name. Missing folders are skipped.
 PluginSearch loadPlugins(const std::vector<std::filesystem::path>& folders);
 
+/// Ends the texts of a description. Returns false if a number of it is not valid.
+bool checkDescription(NearfitDeviceDescription& device) noexcept;
+
 /// Returns the folders searched for plug-ins: those that NEARFIT_PLUGINS lists, separated by colons; else
-/// `nearfit/plugins` in XDG_DATA_HOME (~/.local/share), /usr/local/lib and /usr/lib.
+/// `nearfit/plugins` in XDG_DATA_HOME (~/.local/share), `plugins` beside the program, `nearfit/plugins` in the `lib`
+/// beside the program's folder, in /usr/local/lib and in /usr/lib. A program that runs with more rights than its caller
+/// takes nothing from the environment.
 std::vector<std::filesystem::path> pluginFolders();
 
 /// Creates a plug-in's device; opens nothing yet.

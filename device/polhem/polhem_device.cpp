@@ -39,7 +39,8 @@ bool PolhemDevice::speaks(const UsbDescription& device) noexcept {
 
 PolhemDevice::PolhemDevice(UsbDescription device, const polhem::Calibration& calibration,
                            const SafetyLimits& safety)
-    : ForceArmDevice(std::move(device), calibration.name, polhem::limitsOf(calibration), safety),
+    : ForceArmDevice(std::move(device), calibration.name, polhem::limitsOf(calibration), safety,
+                     calibration.hasGimbal ? 6 : 3),
       calibration_(calibration),
       kinematics_(calibration) {}
 

@@ -59,8 +59,11 @@ DeviceListing listingOf(const UsbDescription& usb, const DeviceMatch& match) {
 }
 
 std::string kindOf(const NearfitDeviceDescription& device) {
-  if (device.force_axes == 0) return "does not push";
-  return "pushes along " + std::to_string(device.force_axes) + " axes";
+  const std::string senses = "senses " + std::to_string(device.sensed_axes) + " axes, ";
+  if (device.force_axes == 0) return senses + "does not push";
+  const bool isUnfelt = device.sensed_axes == 6 && device.force_axes == 3;
+  return senses + "pushes along " + std::to_string(device.force_axes) +
+         (isUnfelt ? ", torque is not felt" : "");
 }
 
 void addDevicesOf(const std::shared_ptr<const DevicePlugin>& plugin, std::vector<DeviceListing>& devices) {
@@ -113,10 +116,22 @@ std::vector<DeviceListing> listPluginDevices(const PluginSearch& plugins,
     try {
       addDevicesOf(plugin, devices);
     } catch (const DeviceError& error) {
-      problems.emplace_back(error.what());
+      if (error.cause() != DeviceProblem::NoDriver) problems.emplace_back(error.what());
     }
   }
   return devices;
+}
+
+std::vector<MissingDriver> missingDrivers(const PluginSearch& plugins) {
+  std::vector<MissingDriver> missing;
+  for (const std::shared_ptr<const DevicePlugin>& plugin : plugins.plugins) {
+    try {
+      plugin->devices();
+    } catch (const DeviceError& error) {
+      if (error.cause() == DeviceProblem::NoDriver) missing.push_back({plugin->name(), error.remedy()});
+    }
+  }
+  return missing;
 }
 
 std::vector<DeviceListing> listDevices(const UsbBus& bus, const PluginSearch& plugins,

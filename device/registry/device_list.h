@@ -39,6 +39,16 @@ struct DeviceListing {
   bool isSamePlugging(const DeviceListing& other) const noexcept;
 };
 
+/// Devices that need a maker's driver which is not there.
+struct MissingDriver {
+  std::string name;    ///< Of the plug-in that would drive them.
+  std::string remedy;  ///< What to install, in one line.
+};
+
+/// Lists the plug-ins that cannot do without what their makers give out, and do not find it. That is no problem unless
+/// somebody has such a device, so listDevices() does not tell of it.
+std::vector<MissingDriver> missingDrivers(const PluginSearch& plugins);
+
 /// Lists the devices of plug-ins alone, for machines without USB.
 /// @param problems  Receives a sentence for each failure; earlier content is discarded.
 std::vector<DeviceListing> listPluginDevices(const PluginSearch& plugins, std::vector<std::string>& problems);

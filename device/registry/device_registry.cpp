@@ -62,7 +62,10 @@ struct Foreign {
   const char *name, *kind, *why;
 };
 constexpr const char* kSeeDocument = "see resources/docs/devices.md";
-constexpr const char* kPlugin = "its protocol is proprietary: it needs its maker's software and a plug-in";
+constexpr const char* kPlugin =
+    "its protocol is proprietary: it is driven through its maker's software, and is listed a second time "
+    "once that "
+    "is installed";
 constexpr std::array kForeign = {
     Foreign{0x1451, kAnyProduct, "Force Dimension haptic device", "senses 3 to 7 axes, pushes along 3 to 7",
             kPlugin},
@@ -72,8 +75,9 @@ constexpr std::array kForeign = {
     // Haply builds it in, under the ID that every Teensy has.
     Foreign{polhem::kTeensyVendor, 0x0483, "Teensy, if it is in a Haply Inverse3",
             "senses 3 axes, pushes along 3",
-            "if it is in a Haply Inverse3, it needs its maker's software and a plug-in; any other Teensy is "
-            "not supported"},
+            "if it is in a Haply Inverse3, it is driven through its maker's software, and is listed a second "
+            "time "
+            "once that runs; any other Teensy is not supported"},
     Foreign{0x1532, 0x0300, "Razer Hydra", "senses 6 axes with each hand, does not push",
             "there is no driver for it"}};
 

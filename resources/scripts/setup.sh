@@ -4,7 +4,7 @@ nearfit_packages=(
   g++ cmake ninja-build pkg-config ccache
   libvtk9-qt-dev qtbase5-dev libqt5svg5-dev libopenmesh-dev libglm-dev
   libfmt-dev nlohmann-json3-dev libcli11-dev libssl-dev libxxhash-dev libmuparser-dev libgtest-dev libgmock-dev libfcl-dev
-  libcgal-dev libompl-dev libusb-1.0-0-dev libqcustomplot-dev
+  libcgal-dev libboost-dev libompl-dev libusb-1.0-0-dev libqcustomplot-dev
   zlib1g-dev libocct-data-exchange-dev libtbb-dev libfontconfig-dev lib3mf-dev liburdfdom-dev libseccomp-dev
 )
 nearfit_test_packages=(xvfb xauth libgl1-mesa-dri umockdev libumockdev-dev python3)

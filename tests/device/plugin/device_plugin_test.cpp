@@ -1,11 +1,13 @@
 #include "device/plugin/device_plugin.h"
 
 #include <atomic>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,6 +38,8 @@ TEST(DevicePlugin, ExampleIsLoadedOpenedReadAndPushed) {
   ASSERT_EQ(devices.size(), 1U);
   const std::unique_ptr<HapticDevice> device = makePluginDevice(plugin, 0, devices[0]);
   EXPECT_EQ(device->info().forceAxes, 3);
+  EXPECT_EQ(device->info().sensedAxes, 6);
+  EXPECT_TRUE(device->info().isTurningUnfelt());
   EXPECT_EQ(device->info().limits.maxForce, 5.0);
   device->start({});
   EXPECT_EQ(device->state(), DeviceState::Ready);
@@ -138,6 +142,35 @@ TEST(DevicePlugin, TwoFilesAreTwoLibrariesWhateverWasLoadedBefore) {
   const auto first = DevicePlugin::load(other), second = DevicePlugin::load(one);
   EXPECT_NE(&first->functions(), &second->functions());
   EXPECT_EQ(&first->functions(), &DevicePlugin::load(other)->functions());
+}
+
+TEST(DevicePlugin, ThoseThatComeWithNearfitAreFoundBesideTheProgramAndInItsPrefix) {
+  const test::ScopedVariable none("NEARFIT_PLUGINS", std::nullopt);
+  const test::ScopedVariable data("XDG_DATA_HOME", "/home/nobody/data");
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
+  const std::vector<fs::path> folders = pluginFolders();
+  EXPECT_THAT(folders, testing::ElementsAre(
+                           fs::path("/home/nobody/data/nearfit/plugins"), program / "plugins",
+                           program.parent_path() / "lib/nearfit/plugins",
+                           fs::path("/usr/local/lib/nearfit/plugins"), fs::path("/usr/lib/nearfit/plugins")));
+}
+
+TEST(DevicePlugin, ADescriptionThatMakesNoSenseIsRefused) {
+  NearfitDeviceDescription good{};
+  good.sensed_axes = 6;
+  good.force_axes = 3;
+  good.rate = 1000.0;
+  EXPECT_TRUE(checkDescription(good));
+  for (const double bad : {-1.0, std::nan(""), HUGE_VAL}) {
+    NearfitDeviceDescription wrong = good;
+    wrong.rate = bad;
+    EXPECT_FALSE(checkDescription(wrong)) << bad;
+  }
+  for (const int axes : {0, 4, 7}) {
+    NearfitDeviceDescription wrong = good;
+    wrong.sensed_axes = axes;
+    EXPECT_FALSE(checkDescription(wrong)) << axes;
+  }
 }
 
 TEST(DevicePlugin, FoldersAreSearchedAndProblemsAreTold) {

@@ -33,6 +33,7 @@ static int32_t describe(int32_t index, NearfitDeviceDescription* out, char* erro
   memset(out, 0, sizeof *out);
   strcpy(out->name, "Example device");
   strcpy(out->serial, "0001");
+  out->sensed_axes = 6;
   out->force_axes = 3;
   out->max_force = 5.0;
   out->damping = 2.0;
@@ -50,6 +51,12 @@ static NearfitDevice* open_device(int32_t index, char* error, size_t size) {
 
 static void close_device(NearfitDevice* device) {
   free(device);
+}
+
+static int32_t details(NearfitDevice* device, NearfitDeviceDescription* out) {
+  char ignored[64];
+  (void)device;
+  return describe(0, out, ignored, sizeof ignored);
 }
 
 static int32_t set_forces(NearfitDevice* device, int32_t are_on, char* error, size_t size) {
@@ -86,7 +93,12 @@ const NearfitDevicePlugin* nearfit_device_plugin(void) {
                                              describe,
                                              open_device,
                                              close_device,
+                                             details,
                                              set_forces,
+                                             NULL, /* calibrate: it knows its pose. */
+                                             NULL, /* reset: it has no faults. */
+                                             NULL, /* note */
+                                             NULL, /* wait: Nearfit sets the pace. */
                                              read_pose,
                                              write_force};
   return &plugin;

@@ -1,0 +1,316 @@
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "device/plugins/forcedimension/dhd_api.h"
+#include "device/plugins/kit/device_frame.h"
+#include "device/plugins/kit/plugin_table.h"
+
+namespace nearfit::forcedimension {
+namespace {
+
+using plugin::PluginError;
+
+/// Force Dimension: x towards the user, y to the right, z up.
+const plugin::DeviceFrame kDhdFrame(glm::dmat3({0, -1, 0}, {1, 0, 0}, {0, 0, 1}));
+
+/// What the SDK does not tell of a device. Forces, torques and stiffnesses are those that CHAI3D, an open toolkit, has
+/// for its drivers; those of the sigma.7 are its data sheet's.
+struct DhdModel {
+  double force, stiffness, torque, turnStiffness;  ///< [N], [N/m], [N m], [N m/rad]
+};
+constexpr DhdModel kDeltaModel{20.0, 4000.0, 0.2, 1.0};
+constexpr DhdModel kOmegaModel{12.0, 4000.0, 0.0, 0.0};
+constexpr DhdModel kSigmaModel{20.0, 4000.0, 0.4, 1.0};
+/// Of a Falcon, and of a model that is not known: little.
+constexpr DhdModel kWeakModel{8.0, 3000.0, 0.2, 0.5};
+constexpr double kDhdMass = 0.1;                // [kg]; an estimate on the low side.
+constexpr double kDhdRotationalDamping = 1e-3;  // [N m s/rad]; the same, where a wrist has no motors.
+/// Its USB transfers come that fast; of a Falcon, once a millisecond [Hz].
+constexpr double kDhdRate = 4000.0, kFalconRate = 1000.0;
+
+DhdModel modelOf(int type) noexcept {
+  switch (type) {
+    case dhd::kDelta3:
+    case dhd::kDelta6:
+      return kDeltaModel;
+    case dhd::kOmega3:
+    case dhd::kOmega6:
+    case dhd::kOmega6Left:
+    case dhd::kOmega7:
+    case dhd::kOmega7Left:
+      return kOmegaModel;
+    case dhd::kSigma7:
+    case dhd::kSigma7Left:
+      return kSigmaModel;
+    default:
+      return kWeakModel;
+  }
+}
+
+/// The servo's answer comes in some 50 us; a force that waits longer goes out with the next pose.
+constexpr Nanoseconds kAnswerPatience = 150'000;
+/// Poses between two looks at the device's status, which costs a transfer: 20 ms at 4 kHz.
+constexpr int kPosesPerStatus = 80;
+/// Failures in a row after which a device whose connection is disturbed counts as lost.
+constexpr int kMaxFailures = 20;
+/// Until the device's thread has done what it was asked for.
+constexpr std::chrono::seconds kWorkTime{2};
+
+class DhdDriver {
+ public:
+  static DhdDriver& instance() {
+    static DhdDriver driver;
+    return driver;
+  }
+  const DhdApi api;
+};
+
+NearfitDeviceDescription usualDescription(std::int32_t index) {
+  NearfitDeviceDescription out{};
+  plugin::copyText("Force Dimension device " + std::to_string(index + 1), out.name, sizeof out.name);
+  out.sensed_axes = 3;
+  out.force_axes = 3;
+  out.rate = kDhdRate;
+  out.max_force = kWeakModel.force;
+  out.damping = plugin::dampingFromStiffness(kWeakModel.stiffness, kDhdRate);
+  out.rotational_damping = kDhdRotationalDamping;
+  out.mass = kDhdMass;
+  return out;
+}
+
+/// A device of Force Dimension. A thread of its own exchanges poses and forces with it, as fast as its transfers go,
+/// and is the only one that calls the SDK for this device while it runs.
+class DhdDevice final : public NearfitDevice {
+ public:
+  DhdDevice(const DhdApi& api, std::int32_t index) : api_(api) {
+    id_ = static_cast<char>(api_.openId(static_cast<char>(index)));
+    if (id_ < 0) throw PluginError(lastWords() + "; close other programs that use it");
+    describeOpen(index);
+    // A gripper has no button: closing it is one.
+    if (api_.hasGripper(id_)) api_.emulateButton(dhd::kOn, id_);
+    api_.enableForce(dhd::kOff, id_);
+    thread_ = std::thread([this] { run(); });
+  }
+  ~DhdDevice() override {
+    isEnding_.store(true, std::memory_order_release);
+    thread_.join();
+    api_.setWrench(0, 0, 0, 0, 0, 0, 0, id_);
+    api_.enableForce(dhd::kOff, id_);
+    api_.close(id_);
+  }
+
+  NearfitDeviceDescription details() const override { return description_; }
+  void setForces(bool areOn) override {
+    if (!areOn) exchange().setForces(false);
+    if (!ask([this, areOn] { return api_.enableForce(areOn ? dhd::kOn : dhd::kOff, id_) >= 0; }) && areOn)
+      throw PluginError(lastWords());
+    exchange().setForces(areOn);
+  }
+  void calibrate() override {
+    if (api_.autoInit == nullptr) {
+      if (!isCalibrated_.load(std::memory_order_acquire)) throw PluginError(kByHand);
+      return;
+    }
+    const bool isDone = ask([this] {
+      // The device moves its handle by itself, then lets it go.
+      const bool isWell = api_.autoInit(id_) >= 0;
+      api_.stopRegulation(true, id_);
+      api_.enableForce(dhd::kOff, id_);
+      return isWell;
+    });
+    if (!isDone) throw PluginError(lastWords());
+  }
+  void reset() override {
+    words_.store(nullptr, std::memory_order_release);
+    exchange().clearFault();
+  }
+  std::string note() const override {
+    if (const char* words = words_.load(std::memory_order_acquire)) return words;
+    if (isCalibrated_.load(std::memory_order_acquire)) return {};
+    return api_.autoInit != nullptr ? "take your hands off it and calibrate it: it moves its handle by itself"
+                                    : kByHand;
+  }
+
+ private:
+  static constexpr const char* kByHand =
+      "put its calibration pole into the pit, or its handle into its end stops, as its manual says";
+
+  std::string lastWords() const {
+    const char* const words = api_.errorGetLastStr();
+    return words != nullptr && *words != '\0' ? words : "its driver gives no reason";
+  }
+
+  void describeOpen(std::int32_t index) {
+    description_ = usualDescription(index);
+    const int type = api_.getSystemType(id_);
+    const DhdModel model = modelOf(type);
+    if (const char* name = api_.getSystemName(id_); name != nullptr && *name != '\0')
+      plugin::copyText(name, description_.name, sizeof description_.name);
+    unsigned short serial = 0;
+    if (api_.getSerialNumber(&serial, id_) >= 0)
+      plugin::copyText(std::to_string(serial), description_.serial, sizeof description_.serial);
+    description_.rate = type == dhd::kFalcon ? kFalconRate : kDhdRate;
+    description_.sensed_axes = api_.hasWrist(id_) ? 6 : 3;
+    description_.force_axes = api_.hasActiveWrist(id_) && model.torque > 0.0 ? 6 : 3;
+    description_.max_force = model.force;
+    if (api_.getMaxForce != nullptr) {
+      const double limit = api_.getMaxForce(id_);
+      if (std::isfinite(limit) && limit > 0.0) description_.max_force = std::fmin(model.force, limit);
+    }
+    description_.damping = plugin::dampingFromStiffness(model.stiffness, description_.rate);
+    if (description_.force_axes != 6) return;
+    description_.max_torque = model.torque;
+    description_.rotational_damping = plugin::dampingFromStiffness(model.turnStiffness, description_.rate);
+  }
+
+  /// Has the device's thread do it between two poses. Returns its result, or false if the thread is stuck.
+  template <class Work>
+  bool ask(Work work) {
+    std::unique_lock lock(workMutex_);
+    work_ = std::move(work);
+    hasWork_.store(true, std::memory_order_release);
+    // What calibrates takes as long as the handle's way.
+    const bool isCalibration = api_.autoInit != nullptr && !isCalibrated_.load(std::memory_order_acquire);
+    const auto patience = isCalibration ? std::chrono::seconds(60) : kWorkTime;
+    const bool isDone =
+        workDone_.wait_for(lock, patience, [this] { return !hasWork_.load(std::memory_order_acquire); });
+    return isDone && workResult_;
+  }
+  void work() {
+    if (!hasWork_.load(std::memory_order_acquire)) return;
+    const std::lock_guard lock(workMutex_);
+    workResult_ = work_();
+    hasWork_.store(false, std::memory_order_release);
+    workDone_.notify_all();
+  }
+
+  void run() {
+    for (int poses = 0; !isEnding_.load(std::memory_order_acquire); ++poses) {
+      work();
+      if (exchange().isLost()) {
+        // If it hears again, it must not push on as it was told last.
+        api_.setWrench(0, 0, 0, 0, 0, 0, 0, id_);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        continue;
+      }
+      if (poses % kPosesPerStatus == 0) look();
+      exchangeOnce();
+    }
+  }
+  void exchangeOnce() noexcept {
+    glm::dvec3 position(0.0), velocity(0.0);
+    std::array<std::array<double, 3>, 3> rows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    if (api_.getPoseFrame(&position.x, &position.y, &position.z, reinterpret_cast<double(*)[3]>(rows.data()),
+                          id_) < 0)
+      return fail();
+    const Nanoseconds arrived = monotonicNow();
+    api_.getLinearVelocity(&velocity.x, &velocity.y, &velocity.z, id_);
+    NearfitDevicePose pose{};
+    plugin::put(kDhdFrame.fromMaker(position), pose.position);
+    plugin::put(kDhdFrame.fromMaker(velocity), pose.velocity);
+    const glm::dmat3 turn({rows[0][0], rows[1][0], rows[2][0]}, {rows[0][1], rows[1][1], rows[2][1]},
+                          {rows[0][2], rows[1][2], rows[2][2]});
+    plugin::put(description_.sensed_axes == 6 ? kDhdFrame.fromMaker(turn) : glm::dquat(1, 0, 0, 0),
+                pose.rotation);
+    pose.buttons = api_.getButtonMask(id_);
+    if (isCalibrated_.load(std::memory_order_acquire)) pose.flags = NEARFIT_DEVICE_CALIBRATED;
+    exchange().publish(pose, arrived);
+    exchange().waitForWrench(arrived + kAnswerPatience);
+    const plugin::PluginWrench wrench = exchange().wrenchNow();
+    const glm::dvec3 force = kDhdFrame.toMaker(wrench.force), torque = kDhdFrame.toMaker(wrench.torque);
+    // A positive result only says that it was too early or that a motor is at its limit.
+    if (api_.setWrench(force.x, force.y, force.z, torque.x, torque.y, torque.z, 0.0, id_) < 0) return fail();
+    failures_ = 0;
+  }
+
+  void fail() noexcept {
+    const int error = api_.errorGetLast();
+    if (error == dhd::kErrorNoDevice || error == dhd::kErrorNotReady || error == dhd::kErrorCom)
+      return lose("it was unplugged or switched off");
+    if (error == dhd::kErrorTimeout || error == dhd::kErrorBusy) {
+      stop(NEARFIT_FAULT_LINK, "its answers come too late");
+    } else {
+      stop(NEARFIT_FAULT_OTHER, "its driver reported an error");
+    }
+    if (++failures_ >= kMaxFailures) lose("it no longer answers");
+    // Whoever fails at once would fail a million times a second.
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  void look() noexcept {
+    std::array<int, dhd::kMaxStatus> status{};
+    if (api_.getStatus(status.data(), id_) < 0) return fail();
+    isCalibrated_.store(
+        api_.isInitialized != nullptr ? api_.isInitialized(id_) : status[dhd::kStatusReset] == 0,
+        std::memory_order_release);
+    if (status[dhd::kStatusConnected] == 0) return lose("it was unplugged or switched off");
+    if (status[dhd::kStatusPower] == 0)
+      return stop(NEARFIT_FAULT_SWITCHED_OFF, "its power supply is unplugged or off");
+    if (status[dhd::kStatusError] != 0) return stop(NEARFIT_FAULT_OTHER, "its controller reported an error");
+    if (!exchange().areForcesOn() || status[dhd::kStatusForce] != 0) return;
+    switch (status[dhd::kStatusForceOffCause]) {
+      case dhd::kOffByVelocity:
+        return stop(NEARFIT_FAULT_SPEED, "its controller turned the motors off");
+      case dhd::kOffByWatchdog:
+      case dhd::kOffByUsb:
+        return stop(NEARFIT_FAULT_LINK, "its controller heard nothing for too long");
+      default:
+        return stop(NEARFIT_FAULT_SWITCHED_OFF, "by its button or its hand sensor");
+    }
+  }
+  void stop(std::uint32_t fault, const char* words) noexcept {
+    say(words);
+    exchange().stop(fault);
+  }
+  void lose(const char* words) noexcept {
+    say(words);
+    exchange().lose();
+  }
+  /// The first reason is kept until the next reset.
+  void say(const char* words) noexcept {
+    const char* none = nullptr;
+    words_.compare_exchange_strong(none, words, std::memory_order_acq_rel);
+  }
+
+  const DhdApi& api_;
+  char id_ = -1;
+  NearfitDeviceDescription description_{};
+  int failures_ = 0;  ///< In a row.
+  std::atomic<bool> isCalibrated_{false}, isEnding_{false};
+  std::atomic<const char*> words_{nullptr};  ///< Why it is stopped or lost; static text.
+
+  std::mutex workMutex_;
+  std::condition_variable workDone_;
+  std::function<bool()> work_;
+  bool workResult_ = false;
+  std::atomic<bool> hasWork_{false};
+  std::thread thread_;
+};
+
+struct ForceDimension {
+  static constexpr const char* kName = "Force Dimension";
+
+  static std::int32_t count() {
+    const DhdApi& api = DhdDriver::instance().api;
+    const int count = api.getDeviceCount();
+    return count > 0 ? count : 0;
+  }
+  static NearfitDeviceDescription describe(std::int32_t index) { return usualDescription(index); }
+  static std::unique_ptr<NearfitDevice> open(std::int32_t index) {
+    return std::make_unique<DhdDevice>(DhdDriver::instance().api, index);
+  }
+};
+
+}  // namespace
+}  // namespace nearfit::forcedimension
+
+extern "C" __attribute__((visibility("default"))) const NearfitDevicePlugin* nearfit_device_plugin(void) {
+  return nearfit::plugin::tableOf<nearfit::forcedimension::ForceDimension>();
+}

@@ -1,0 +1,30 @@
+// A minute of contact with each model, while the hand moves on the floor. With nothing else on the machine the answer to a
+// pose has to be on its way within 200 us.
+#include <gtest/gtest.h>
+
+#include "tests/makers/maker_contact.h"
+
+namespace nearfit::maker_contact_stress_test {
+namespace {
+
+constexpr double kMinute = 60.0;        // [s]
+constexpr double kMaxRoundTrip = 2e-4;  // p99 [s]
+constexpr double kMaxEnergy = 1e-4;     // As in the short test [J].
+
+class MakerContactForAMinute : public testing::TestWithParam<test::MakerModel> {};
+
+TEST_P(MakerContactForAMinute, StaysStableGivesNoEnergyAndAnswersInTime) {
+  test::MakerBench bench(GetParam());
+  const test::ContactOutcome felt = test::pressOnFloor(bench, kMinute);
+  ASSERT_TRUE(felt.wasReady && felt.wasFelt) << felt.note;
+  EXPECT_TRUE(felt.cameToRest && felt.wasLetGo) << felt.note;
+  EXPECT_EQ(felt.note, "");
+  EXPECT_LT(felt.maxEnergyGiven, kMaxEnergy);
+  EXPECT_LE(felt.roundTrip.percentile(0.99), kMaxRoundTrip);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MakerContactForAMinute, testing::ValuesIn(test::kMakerModels),
+                         [](const auto& each) { return std::string(each.param.name); });
+
+}  // namespace
+}  // namespace nearfit::maker_contact_stress_test

@@ -1,0 +1,281 @@
+// Each maker's plug-in over what stands in for the maker's driver: the plug-ins are those that ship.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "device/interface/device_error.h"
+#include "device/interface/device_supervisor.h"
+#include "tests/makers/maker_bench.h"
+#include "tests/support/eventually.h"
+
+namespace nearfit::maker_plugin_test {
+namespace {
+
+using test::eventually;
+using test::Maker;
+using test::MakerModel;
+using testing::HasSubstr;
+
+glm::dvec3 vectorOf(const test::Triple& v) {
+  return {v[0], v[1], v[2]};
+}
+bool isNear(const glm::dvec3& a, const glm::dvec3& b, double slack) {
+  return glm::distance(a, b) <= slack;
+}
+
+class EachMaker : public testing::TestWithParam<MakerModel> {
+ protected:
+  void open() {
+    device = bench.make();
+    device->start({});
+    servo.emplace(*device);
+  }
+  /// Its calibration is read from its driver, now and then.
+  bool becomes(DeviceState state) {
+    return eventually([&] { return device->state() == state; });
+  }
+  void arm() {
+    ASSERT_TRUE(becomes(DeviceState::Ready)) << device->stateNote();
+    device->arm();
+  }
+  void TearDown() override {
+    servo.reset();
+    device.reset();
+  }
+
+  test::MakerBench bench{GetParam()};
+  std::unique_ptr<HapticDevice> device;
+  std::optional<test::MakerServo> servo;
+};
+
+constexpr Wrench kPush{{0.5, 0.25, -1.0}, {0.01, -0.02, 0.03}};
+/// The hand gives way to a push; encoders are exact here [m].
+constexpr double kPlaceSlack = 1e-3;
+
+TEST_P(EachMaker, IsListedWithWhatItSensesAndPushes) {
+  const auto listed = bench.plugin()->devices();
+  ASSERT_EQ(listed.size(), GetParam().maker == Maker::OpenHaptics ? 2U : 1U);
+  open();
+  const DeviceInfo info = device->info();
+  EXPECT_EQ(info.sensedAxes, GetParam().sensedAxes);
+  EXPECT_EQ(info.forceAxes, GetParam().forceAxes);
+  EXPECT_DOUBLE_EQ(info.reportPeriod, 1.0 / GetParam().rate);
+  EXPECT_GT(info.limits.maxForce, 1.0);
+  EXPECT_LE(info.limits.maxForce, 20.0);
+  EXPECT_EQ(info.limits.maxTorque > 0.0, GetParam().forceAxes == 6);
+  EXPECT_EQ(info.isTurningUnfelt(), GetParam().sensedAxes == 6 && GetParam().forceAxes == 3);
+}
+
+TEST_P(EachMaker, ItsHandleIsWhereTheHandHoldsIt) {
+  open();
+  const glm::dvec3 wanted{0.02, -0.03, 0.01};
+  bench.device().target.set({wanted.x, wanted.y, wanted.z});
+  constexpr double kTurn = 0.3;
+  bench.device().turn = kTurn;
+  const glm::dquat turned = GetParam().sensedAxes == 6 ? glm::angleAxis(kTurn, glm::dvec3(0.0, 1.0, 0.0))
+                                                       : glm::dquat(1.0, 0.0, 0.0, 0.0);
+  // Friction lets the handle rest a little off.
+  EXPECT_TRUE(eventually([&] {
+    const HandleInput handle = servo->last();
+    return isNear(handle.pose.translation, wanted, 2.0 * kPlaceSlack) &&
+           std::abs(glm::dot(handle.pose.rotation, turned)) > 1.0 - 1e-9;
+  })) << servo->last().pose.translation.x
+      << " " << servo->last().pose.translation.y << " " << servo->last().pose.translation.z;
+  EXPECT_EQ(servo->last().isTorqueFelt, !device->info().isTurningUnfelt());
+  if (GetParam().maker == Maker::Haply && GetParam().sensedAxes == 3) return;  // Its buttons are its grip's.
+  bench.device().buttons = 1;
+  EXPECT_TRUE(eventually([&] { return servo->last().isClutched; }));
+}
+
+TEST_P(EachMaker, PushesOnceItIsArmedAndNoMoreWhenDisarmed) {
+  open();
+  servo->send(kPush);
+  ASSERT_TRUE(becomes(DeviceState::Ready)) << device->stateNote();
+  const std::uint64_t before = bench.device().exchanges;
+  ASSERT_TRUE(eventually([&] { return bench.device().exchanges > before + 20; }));
+  EXPECT_EQ(vectorOf(bench.device().force.get()), glm::dvec3(0.0)) << "not armed";
+  device->arm();
+  const glm::dvec3 torque = GetParam().forceAxes == 6 ? kPush.torque : glm::dvec3(0.0);
+  EXPECT_TRUE(eventually([&] {
+    return isNear(vectorOf(bench.device().force.get()), kPush.force, 1e-9) &&
+           isNear(vectorOf(bench.device().torque.get()), torque, 1e-9);
+  })) << device->stateNote();
+  device->disarm();
+  EXPECT_TRUE(eventually([&] { return vectorOf(bench.device().force.get()) == glm::dvec3(0.0); }));
+  EXPECT_EQ(device->state(), DeviceState::Ready);
+}
+
+TEST_P(EachMaker, LetsGoWhenNearfitFallsSilent) {
+  open();
+  servo->send(kPush);
+  arm();
+  ASSERT_TRUE(eventually([&] { return vectorOf(bench.device().force.get()).z < -0.5; }));
+  servo->stop();
+  EXPECT_TRUE(eventually([&] { return vectorOf(bench.device().force.get()) == glm::dvec3(0.0); }));
+}
+
+TEST_P(EachMaker, ClosesWithItsMotorsAtRestAndOpensAgain) {
+  for (int i = 0; i < 3; ++i) {
+    open();
+    servo->send(kPush);
+    arm();
+    ASSERT_TRUE(eventually([&] { return vectorOf(bench.device().force.get()).z < -0.5; })) << i;
+    servo.reset();
+    device->stop();
+    EXPECT_EQ(device->state(), DeviceState::Present);
+    // A service is told last of all, and idles by itself.
+    EXPECT_EQ(vectorOf(bench.device().force.get()), glm::dvec3(0.0)) << i;
+  }
+}
+
+TEST_P(EachMaker, IsLostWhenUnpluggedAndCanBeOpenedOncePluggedInAgain) {
+  open();
+  servo->send(kPush);
+  arm();
+  ASSERT_TRUE(eventually([&] { return vectorOf(bench.device().force.get()).z < -0.5; }));
+  bench.device().isPlugged = false;
+  EXPECT_TRUE(becomes(DeviceState::Lost)) << device->stateNote();
+  EXPECT_TRUE(eventually([&] { return servo->hasEnded(); }));
+  EXPECT_NE(device->stateNote(), "");
+  servo.reset();
+  device->stop();
+  bench.device().isPlugged = true;
+  device->start({});
+  servo.emplace(*device);
+  EXPECT_TRUE(becomes(DeviceState::Ready)) << device->stateNote();
+  EXPECT_FALSE(servo->last().isArmed) << "being plugged in again arms nothing";
+}
+
+TEST_P(EachMaker, IsStoppedWhenItsDriverStalls) {
+  open();
+  arm();
+  bench.device().isStalled = true;
+  EXPECT_TRUE(becomes(DeviceState::Fault)) << device->stateNote();
+  EXPECT_THAT(device->stateNote(), HasSubstr(faultReason(DeviceFault::Silent)));
+  bench.device().isStalled = false;
+  ASSERT_TRUE(eventually([&] { return servo->last().age < 5e-3; }));
+  device->reset();
+  EXPECT_TRUE(becomes(DeviceState::Ready)) << device->stateNote();
+}
+
+TEST_P(EachMaker, CannotBeArmedBeforeItsPoseIsKnown) {
+  bench.device().isCalibrated = false;
+  // An inkwell: OpenHaptics' others calibrate by themselves.
+  if (GetParam().maker == Maker::OpenHaptics) bench.device().status = 4;
+  open();
+  ASSERT_TRUE(becomes(DeviceState::Uncalibrated));
+  EXPECT_NE(device->stateNote(), "");
+  EXPECT_THROW(device->arm(), DeviceError);
+  if (GetParam().maker == Maker::Haply) {
+    EXPECT_THROW(device->calibrate(), DeviceError) << "its service calibrates";
+    bench.device().isCalibrated = true;
+  } else {
+    device->calibrate();
+  }
+  EXPECT_TRUE(becomes(DeviceState::Ready)) << device->stateNote();
+}
+
+struct MakerFault {
+  int error, status;
+  DeviceFault fault;  ///< None: the device is lost.
+};
+
+std::vector<MakerFault> faultsOf(Maker maker) {
+  switch (maker) {
+    case Maker::OpenHaptics:
+      return {{0x200, 0, DeviceFault::Hot},        {0x201, 0, DeviceFault::Overloaded},
+              {0x202, 0, DeviceFault::Overloaded}, {0x203, 0, DeviceFault::TooFast},
+              {0x204, 0, DeviceFault::Overloaded}, {0x300, 0, DeviceFault::Reported},
+              {0x304, 0, DeviceFault::Reported},   {0x302, 0, DeviceFault::None}};
+    case Maker::ForceDimension:
+      return {
+          {7, 0, DeviceFault::BrokenLink},  {3, 0, DeviceFault::BrokenLink}, {1, 0, DeviceFault::Reported},
+          {0, 2, DeviceFault::TooFast},     {0, 3, DeviceFault::BrokenLink}, {0, 1, DeviceFault::SwitchedOff},
+          {0, 6, DeviceFault::SwitchedOff}, {2, 0, DeviceFault::None},       {5, 0, DeviceFault::None}};
+    case Maker::Haply:
+      return {{3, 0, DeviceFault::SwitchedOff}, {1, 0, DeviceFault::None}, {2, 0, DeviceFault::None}};
+  }
+  return {};
+}
+
+TEST_P(EachMaker, EachOfItsErrorsIsAFaultOfOurs) {
+  for (const MakerFault& each : faultsOf(GetParam().maker)) {
+    bench.device().restart();
+    open();
+    servo->send(kPush);
+    arm();
+    ASSERT_TRUE(eventually([&] { return vectorOf(bench.device().force.get()).z < -0.5; }));
+    bench.device().status = each.status;
+    bench.device().error = each.error;
+    if (each.fault == DeviceFault::None) {
+      // A device that a message leaves out falls silent first.
+      EXPECT_TRUE(becomes(DeviceState::Lost)) << each.error << device->stateNote();
+    } else {
+      EXPECT_TRUE(eventually([&] {
+        const DeviceState state = device->state();
+        return state == DeviceState::Fault || state == DeviceState::Lost;
+      })) << each.error;
+      EXPECT_THAT(device->stateNote(), HasSubstr(faultReason(each.fault)))
+          << each.error << " " << each.status;
+    }
+    bench.device().error = bench.device().status = 0;
+    EXPECT_TRUE(eventually([&] { return vectorOf(bench.device().force.get()) == glm::dvec3(0.0); }))
+        << each.error;
+    TearDown();
+  }
+}
+
+TEST_P(EachMaker, TwoDevicesAreTwo) {
+  bench.standin().count = 2;
+  ASSERT_EQ(bench.plugin()->devices().size(), 2U);
+  open();
+  const std::unique_ptr<HapticDevice> other = bench.make(1);
+  other->start({});
+  test::MakerServo otherServo(*other);
+  servo->send({{0.0, 0.0, 0.5}, {}});
+  otherServo.send({{0.5, 0.0, 0.0}, {}});
+  arm();
+  ASSERT_TRUE(eventually([&] { return other->state() == DeviceState::Ready; })) << other->stateNote();
+  other->arm();
+  EXPECT_TRUE(eventually([&] {
+    return isNear(vectorOf(bench.device(0).force.get()), {0.0, 0.0, 0.5}, 1e-9) &&
+           isNear(vectorOf(bench.device(1).force.get()), {0.5, 0.0, 0.0}, 1e-9);
+  }));
+  otherServo.stop();
+  other->stop();
+  // Closing one leaves the other as it is, but for a pause.
+  EXPECT_TRUE(eventually([&] {
+    return isNear(vectorOf(bench.device(0).force.get()), {0.0, 0.0, 0.5}, 1e-9);
+  })) << device->stateNote();
+  EXPECT_EQ(device->state(), DeviceState::Armed) << device->stateNote();
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EachMaker, testing::ValuesIn(test::kMakerModels),
+                         [](const auto& each) { return std::string(each.param.name); });
+
+TEST(HaplyService, ThatEndsLosesItsDevices) {
+  test::MakerBench bench(test::kMakerModels[6]);
+  const std::unique_ptr<HapticDevice> device = bench.make();
+  device->start({});
+  test::MakerServo servo(*device);
+  bench.endService();
+  EXPECT_TRUE(eventually([&] { return device->state() == DeviceState::Lost; }));
+  EXPECT_THAT(device->stateNote(), HasSubstr("Haply Inverse Service"));
+  try {
+    bench.plugin()->devices();
+    FAIL() << "nobody listens";
+  } catch (const DeviceError& error) {
+    EXPECT_EQ(error.cause(), DeviceProblem::NoDriver);
+    EXPECT_THAT(error.remedy(), HasSubstr("Haply Hub"));
+  }
+}
+
+}  // namespace
+}  // namespace nearfit::maker_plugin_test

@@ -1,0 +1,126 @@
+// nearfit-cli, unchanged, with the plug-ins beside it: what it lists with and without each maker's driver, and a part led
+// by each device.
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/makers/standin_haply.h"
+#include "tests/support/run_process.h"
+#include "tests/support/scoped_variable.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit::maker_program_test {
+namespace {
+
+namespace fs = std::filesystem;
+using test::runCli;
+using test::ScopedVariable;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Nobody listens there: it is a port that only root may take, and no service is registered for it.
+constexpr const char* kNobodysPort = "1";
+
+/// What surrounds the program: which drivers it finds.
+class MakerProgram : public testing::Test {
+ protected:
+  /// @param libraries  Folders of stand-ins, separated by colons.
+  void install(const std::string& libraries) { path_.emplace("LD_LIBRARY_PATH", libraries); }
+  void setUpTouch() {
+    fs::create_directory(folder_.path() / "config");
+    std::ofstream(folder_.path() / "config" / "Default Device.config") << "[DEVICE]\n";
+  }
+  test::ProcessResult run(std::vector<std::string> arguments) {
+    const ScopedVariable haply("NEARFIT_HAPLY_PORT",
+                               service_ ? std::to_string(service_->port()) : kNobodysPort);
+    const ScopedVariable touch("GTDD_HOME", folder_.path().string());
+    // Its own folders, whatever the user has.
+    const ScopedVariable data("XDG_DATA_HOME", folder_.path().string());
+    return runCli(std::move(arguments));
+  }
+  nlohmann::json listed() {
+    const test::ProcessResult result = run({"devices", "--json"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return nlohmann::json::parse(result.out);
+  }
+
+  test::TemporaryFolder folder_;
+  std::optional<ScopedVariable> path_;
+  std::unique_ptr<test::HaplyStandin> service_;
+};
+
+TEST_F(MakerProgram, SaysInALineWhatToInstallForEachMaker) {
+  install("");
+  const test::ProcessResult text = run({"devices"});
+  EXPECT_EQ(text.exitCode, 0) << text.err;
+  EXPECT_EQ(text.err, "") << "a driver that nobody needs is no trouble";
+  for (const char* line : {"\nOpenHaptics: for a Touch or PHANTOM, install ",
+                           "\nForce Dimension: for a delta, omega or sigma, install ",
+                           "\nHaply: for an Inverse3, install Haply Hub"})
+    EXPECT_THAT(text.out, HasSubstr(line));
+  EXPECT_EQ(listed()["missing_drivers"].size(), 3U);
+}
+
+TEST_F(MakerProgram, ListsTheDevicesOfDriversThatAreThere) {
+  install(NEARFIT_STANDINS "/whole");
+  setUpTouch();
+  service_ = std::make_unique<test::HaplyStandin>();
+  const nlohmann::json json = listed();
+  EXPECT_EQ(json["missing_drivers"].size(), 0U) << json;
+  std::string all;
+  for (const auto& device : json["devices"])
+    all += device["place"].get<std::string>() + (device["usable"].get<bool>() ? " " : "? ");
+  for (const char* place : {"openhaptics:1 ", "forcedimension:1 ", "haply:1 "})
+    EXPECT_THAT(all, HasSubstr(place));
+}
+
+TEST_F(MakerProgram, NamesTheFunctionThatAnOldDriverLacks) {
+  install(NEARFIT_STANDINS "/old");
+  setUpTouch();
+  EXPECT_THAT(run({"devices"}).out, HasSubstr("\nOpenHaptics: libHD.so lacks hdUnschedule"));
+}
+
+TEST_F(MakerProgram, ForceDimensionDoesWithoutTheLibraryThatCalibrates) {
+  install(NEARFIT_STANDINS "/dhd");
+  // Its rate counts too: a loaded machine gets another try.
+  test::ProcessResult test;
+  for (int tries = 0; tries < 3; ++tries) {
+    test = run({"devices", "--test", "forcedimension:1", "--yes", "--json", "--report",
+                (folder_.path() / "report.json").string()});
+    if (test.exitCode == 0) break;
+  }
+  EXPECT_EQ(test.exitCode, 0) << test.out << test.err;
+  const auto report = nlohmann::json::parse(std::ifstream(folder_.path() / "report.json"));
+  EXPECT_EQ(report["format"], "nearfit-device-report");
+  EXPECT_EQ(report["senses_axes"], 6);
+  EXPECT_EQ(report["pushes_axes"], 3);
+  std::string steps;
+  for (const auto& step : report["steps"])
+    steps += step["name"].get<std::string>() + "=" + step["result"].get<std::string>() + "\n";
+  for (const char* step : {"noise=pass", "axes=skip", "push 0.1 N=pass", "push 0.3 N=pass", "push x=pass"})
+    EXPECT_THAT(steps, HasSubstr(step));
+  EXPECT_THAT(report.dump(), Not(HasSubstr("54321"))) << "its serial number is nobody's business";
+}
+
+TEST_F(MakerProgram, EachDeviceLeadsAPart) {
+  install(NEARFIT_STANDINS "/whole");
+  setUpTouch();
+  service_ = std::make_unique<test::HaplyStandin>();
+  const std::string demo = NEARFIT_SOURCE_DIR "/resources/demo/piston.nearfit";
+  for (const char* device : {"openhaptics:1", "forcedimension:1", "haply:1"}) {
+    const test::ProcessResult result =
+        run({"place", demo, "--part", "piston head", "--device", device, "--arm", "--seconds", "0.5"});
+    EXPECT_EQ(result.exitCode, 0) << device << "\n" << result.out << result.err;
+    EXPECT_THAT(result.out, HasSubstr("round trip")) << device;
+  }
+}
+
+}  // namespace
+}  // namespace nearfit::maker_program_test
