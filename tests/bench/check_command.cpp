@@ -129,7 +129,7 @@ CheckFigure reportFigure(const ManyPartsScene& scene, double goal, std::size_t r
 }
 
 void runCheck(const CheckCommandOptions& options) {
-  const std::string machine = machineComment() + checkSettings(options);
+  const std::string machine = machineComment(options.csv) + checkSettings(options);
   fmt::print("{}\n{}", machine, checkTableHeader());
   const bool canReport = options.hasReport && !cliProgram().empty();
   std::string csv, problem;

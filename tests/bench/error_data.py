@@ -58,7 +58,7 @@ def error(row, quantity):
 
 
 def is_only_measured(method):
-    """True of a filter that no program uses: it stands in tables and plots, but on no front."""
+    """True of what drops minima by choice: it stands in tables and plots, but on no front."""
     return method == "grouped"
 
 

@@ -60,9 +60,11 @@ def set_tables(table):
     """Missed, spurious and extra minima on the finest mesh."""
     rows = []
     for pair in table.pairs:
-        finest = [table.of(pair, m)[-1] for m in table.methods]
-        row = [pair, small(finest[0]["truths"])]
-        rows.append(row + [f"{small(r['missed'])} / {small(r['spurious'])} / {small(r['extra'])}" for r in finest])
+        # Methods that are too slow for the finest mesh have no row of it.
+        top = max(r["fineness"] for r in table.rows if r["pair"] == pair)
+        finest = [next((r for r in table.of(pair, m) if r["fineness"] == top), None) for m in table.methods]
+        row = [pair, small(next(r for r in finest if r is not None)["truths"])]
+        rows.append(row + ["–" if r is None else f"{small(r['missed'])} / {small(r['spurious'])} / {small(r['extra'])}" for r in finest])
     return table_lines(["pair", "true"] + table.methods, rows)
 
 
@@ -167,7 +169,7 @@ def page(table):
     lines += ["", "![Run time against error](error_headline.png)", "",
               "## Who is on the Pareto front", "",
               "Points (a method on a mesh) that no other beats in both median time and error, over all pairs; what is better "
-              "by less than 2 % does not beat. *grouped*, a filter that no program uses and that drops minima, is left out of fronts. "
+              "by less than 2 % does not beat. *grouped* drops minima, which the program does only if asked to, and is left out of fronts. "
               "Times of *exact tracked* leave out the thread that searches ahead.", ""]
     lines += shares(table)
     lines += ["", "## Where a method that is not exact wins", ""]

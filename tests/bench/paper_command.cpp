@@ -169,7 +169,7 @@ void runPaper(const PaperOptions& options) {
                      "name the folder that has models/public/paper_counts, or choose --part triangles");
   }
   if (options.isSearch) return printSearch(options);
-  const std::string machine = machineComment() + settingsComment(options);
+  const std::string machine = machineComment(options.csv) + settingsComment(options);
   fmt::print("{}", machine);
   PaperResults results;
   for (const RowPart& part : parts) {

@@ -131,14 +131,14 @@ def _error(setting):
     return [_bench(setting, "error", csv="error.csv"), Step(page)]
 
 
-def _later(command):
+def _later(command, *more):
     """A command of which only the name is known here: it gets the options that its help offers."""
 
     def make(setting):
         offered = setting.help_of("nearfit-bench", command)
         options = [word for option, word in (("--shared", str(setting.shared)), ("--clock", "thread")) if option in offered
                    for word in (option, word)]
-        return [_bench(setting, command, *options, csv=f"{command}.csv")]
+        return [_bench(setting, command, *options, *more, csv=f"{command}.csv")]
 
     return make
 
@@ -183,9 +183,9 @@ PARTS = (
     _bench_part("query_generated", 6, "query", "--clock", "thread"),
     _bench_part("query_flats", 3, "query", "--clock", "thread", "--scenes", "peg-hole"),
     Part("paper", 6, ("bench/results/paper.csv",), _later("paper"), command="paper"),
-    Part("check", 3, ("bench/results/check.csv",), _later("check"), command="check"),
+    Part("check", 5, ("bench/results/check.csv",), _later("check", "--repeat", "1", "--peer-seconds", "20"), command="check"),
     _bench_part("build", 2, "build"),
-    _bench_part("program", 4, "program", "--clock", "thread"),
+    _bench_part("program", 3, "program", "--clock", "thread"),
     Part("feel", 12, ("bench/results/feel.csv", "bench/results/certified.csv"), _feel, command="feel"),
     _bench_part("dense", 3, "feel", "--groups", "dense,curved", "--count", "1500", "--clock", "thread"),
     _bench_part("feel_million", 2, "feel", "--groups", "pairs", "--pairs", "organic-1m", "--count", "1500", "--clock", "thread"),
@@ -198,11 +198,11 @@ PARTS = (
     Part("round-trip", 3, ("usb/results/round_trip.csv",), _round_trip, program="nearfit-emulate"),
     Part("evidence", 12, ("evidence/results/evidence.csv", "evidence/results/goals.json", "evidence/results/README.md"), _evidence,
          ("evidence/results/*.png",), program="nearfit-cli"),
-    _stress_part("hand", 16, "--ticks", "10000000", "--certify", "10", "--threads", "2"),
-    _stress_part("rest", 4, may_miss=True),
-    _stress_part("limit", 2, may_miss=True, pictures=("stress/results/limit.png",), draw=_draw_limit),
-    _stress_part("hours", 4, "--hours", "8", may_miss=True),
-    _stress_part("oracle", 8, "--poses", "1000000", "--threads", "2", file="oracle.txt"),
+    _stress_part("hand", 16, "--mode", "proxy", "--ticks", "10000000", "--certify", "10", "--threads", "2"),
+    _stress_part("rest", 6, "--mode", "proxy", may_miss=True),
+    _stress_part("limit", 2, "--mode", "proxy", may_miss=True, pictures=("stress/results/limit.png",), draw=_draw_limit),
+    _stress_part("hours", 4, "--mode", "proxy", "--hours", "8", may_miss=True),
+    _stress_part("oracle", 5, "--poses", "1000000", "--threads", "2", file="oracle.txt"),
 )
 
 

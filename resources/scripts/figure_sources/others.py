@@ -20,8 +20,8 @@ def stress(results):
     rows = [
         ["`hand`", "[hand.csv](results/hand.csv)",
          f"{n.count(sum(hand.numbers('ticks')))} ticks, {n.count(sum(hand.numbers('certified')))} poses certified, "
-         f"{n.count(sum(hand.numbers('meetings')))} meet; error of the account of energy at most "
-         f"{n.plain(max(hand.numbers('ledger error')))} J; a hand gains at most {n.plain(gain)} J of the 0.1 J allowed (the "
+         f"{n.count(sum(hand.numbers('meetings')))} meet; relative error of the account of energy at most "
+         f"{n.plain(max(hand.numbers('ledger error')))}; a hand gains at most {n.plain(gain)} J of the 0.1 J allowed (the "
          f"kilometre scene, {n.plain(hand.number('energy gain J', scene='huge'))} J, left out); work at most "
          f"{n.count(max(hand.numbers('most work')))}"],
         ["`rest`", "[rest.csv](results/rest.csv)",

@@ -1,5 +1,6 @@
 """Which result files cannot be repeated, and why: heads without what they must say, and revisions that are not there."""
 
+import pathlib
 import re
 import subprocess
 
@@ -97,7 +98,10 @@ class History:
     def __init__(self, root):
         self.root = root
         answer = self._git("rev-parse", "--is-shallow-repository")
-        self.is_there = answer is not None and answer.returncode == 0 and answer.stdout.strip() == "false"
+        top = self._git("rev-parse", "--show-toplevel")
+        # Sources unpacked within another repository have no history of their own.
+        self.is_there = (answer is not None and answer.returncode == 0 and answer.stdout.strip() == "false"
+                         and pathlib.Path(top.stdout.strip()).resolve() == pathlib.Path(root).resolve())
 
     def _git(self, *arguments):
         try:
