@@ -31,8 +31,7 @@ void take(const MotionRow& row, PlaceResult& result, MotionWriter* writer) {
   result.maxLmds = std::max(result.maxLmds, row.lmds);
   result.maxAreas = std::max(result.maxAreas, row.areas);
   result.heldTicks += row.springShares.isHeld() ? 1 : 0;
-  result.leastShares = {std::min(result.leastShares.force, row.springShares.force),
-                        std::min(result.leastShares.torque, row.springShares.torque),
+  result.leastShares = {std::min(result.leastShares.wrench, row.springShares.wrench),
                         std::min(result.leastShares.damping, row.springShares.damping)};
   if (row.distance < result.leastDistance) {
     result.leastDistance = row.distance;

@@ -117,10 +117,10 @@ std::string springsText(const PlaceSummary& s) {
   if (s.parameters.haptics.springs.onePerArea)
     text += summaryLine("areas", fmt::format("max {} at once", r.maxAreas));
   if (r.heldTicks > 0) {
-    text +=
-        summaryLine("held", fmt::format("springs stiffer than the device bears in {} ticks: force down to "
-                                        "{:.3g} of the law's, torque to {:.3g}",
-                                        r.heldTicks, r.leastShares.force, r.leastShares.torque));
+    text += summaryLine("held",
+                        fmt::format("springs stiffer than the device bears in {} ticks: down to {:.3g} of "
+                                    "the law's wrench",
+                                    r.heldTicks, r.leastShares.wrench));
   }
   return text;
 }
@@ -130,8 +130,7 @@ nlohmann::ordered_json springsJson(const PlaceSummary& s) {
   return {{"one_per_area", s.parameters.haptics.springs.onePerArea},
           {"max_areas", r.maxAreas},
           {"held_ticks", r.heldTicks},
-          {"least_force_share", r.leastShares.force},
-          {"least_torque_share", r.leastShares.torque},
+          {"least_wrench_share", r.leastShares.wrench},
           {"least_damping_share", r.leastShares.damping}};
 }
 

@@ -20,7 +20,8 @@ struct HandleInput {
   bool isClutched = false;  ///< The hand repositions the device; the part stays.
   /// False if the device senses how the hand turns but has no motors against it (a Touch, an omega.6). Then no torque
   /// is rendered, and the proxy gives way by turning: the turning hand does no work, so what its torque would have held
-  /// back must not come out as a force.
+  /// back must not come out as a force. With springs the passivity
+  /// controller alone limits this.
   bool isTorqueFelt = true;
   bool isArmed = true;  ///< The device may render force. When it is armed, the force ramps up from zero.
   /// True if the device has a frame of its own: the handle starts at the part, wherever the device is.

@@ -85,16 +85,13 @@ SpringShares boundedSprings(const SpringDirections& directions, const SpringPara
   SpringShares shares;
   shares.damping = shareOf(kMaxDampingShare, damped);
   const double left = 1.0 - std::min(kMaxDampingShare, damped);
-  if (linear + angular <= left) return shares;
-  shares.force = shareOf(std::max(0.5 * left, left - angular), linear);
-  shares.torque = shareOf(std::max(0.5 * left, left - linear), angular);
+  shares.wrench = shareOf(left, linear + angular);
   return shares;
 }
 
 SpringShares risenShares(const SpringShares& last, const SpringShares& wanted, double period) noexcept {
   const double share = period / (kShareRiseTime + period);
-  return {risen(last.force, wanted.force, share), risen(last.torque, wanted.torque, share),
-          risen(last.damping, wanted.damping, share)};
+  return {risen(last.wrench, wanted.wrench, share), risen(last.damping, wanted.damping, share)};
 }
 
 }  // namespace nearfit

@@ -26,10 +26,11 @@ class SpringDirections {
   glm::dmat3 lines_{0.0}, turns_{0.0};
 };
 
-/// Parts of the springs' force, torque and damping that are rendered; 1 where nothing is held back.
+/// Parts of the springs' wrench and damping that are rendered; 1 where nothing is held back. Force and torque have one
+/// share: with two, springs off the centre of mass would give more around a closed way than they take.
 struct SpringShares {
-  double force = 1.0, torque = 1.0, damping = 1.0;
-  bool isHeld() const noexcept { return force < 1.0 || torque < 1.0 || damping < 1.0; }
+  double wrench = 1.0, damping = 1.0;
+  bool isHeld() const noexcept { return wrench < 1.0 || damping < 1.0; }
   bool operator==(const SpringShares&) const = default;
 };
 
@@ -43,7 +44,7 @@ double slopeOf(const SpringParameters& springs) noexcept;
 ///
 /// A spring off the centre of mass acts on both, and the sum bounds what it does to them together: b - K T / 2 - B stays
 /// positive semidefinite in all six directions, which alone is Colgate's bound (stiffnessBound()). Damping takes at most
-/// kMaxDampingShare. If the rest is not enough, force and torque each get half of it, and what the other leaves.
+/// kMaxDampingShare, and the wrench is held back to the rest.
 ///
 /// @param device  Limits at the handle (limitsAtHandle()); without torque, only forces count.
 /// @param period  Measured (PeriodMeter) [s].

@@ -178,6 +178,9 @@ std::optional<CylinderRegion> grown(const TriangleMesh& mesh, std::uint32_t firs
     fitRing(mesh, corners, region.cylinder);
     // Facets that were missed because corners of a slot had drawn the cylinder aside.
     addCutFacets(mesh, region);
+    corners = cornersOf(mesh, region.triangles);
+    dropCornersInside(corners, mesh, region.cylinder);
+    if (corners.empty()) return std::nullopt;
   }
   double lowest = glm::dot(corners[0] - region.cylinder.centre, region.cylinder.axis), highest = lowest;
   for (const glm::dvec3& p : corners) {
@@ -223,7 +226,7 @@ std::optional<CylinderRegion> regionFrom(const TriangleMesh& mesh, std::uint32_t
 }
 
 /// Triangles of the facets nearest to one's own, one of each, across edges that are not sharp; nearest first.
-std::vector<std::uint32_t> facetsBeside(const TriangleMesh& mesh, std::uint32_t triangle) {
+std::vector<std::uint32_t> facetsToTry(const TriangleMesh& mesh, std::uint32_t triangle) {
   // Slots rarely cut more facets side by side, and each takes a search.
   constexpr std::size_t kMost = 12;
   std::vector<std::uint32_t> reached{triangle};
@@ -250,7 +253,7 @@ std::optional<CylinderRegion> cylinderRegion(const TriangleMesh& mesh, std::uint
   std::optional<CylinderRegion> best = regionFrom(mesh, triangle);
   if (best && best->isRing) return best;
   // The corners of a facet that a slot cuts tell no cylinder, or a wrong one; those of facets beside it may.
-  for (const std::uint32_t other : facetsBeside(mesh, triangle)) {
+  for (const std::uint32_t other : facetsToTry(mesh, triangle)) {
     std::optional<CylinderRegion> region = regionFrom(mesh, other);
     if (!region || (best && region->triangles.size() <= best->triangles.size())) continue;
     if (std::ranges::find(region->triangles, triangle) == region->triangles.end()) continue;

@@ -123,7 +123,8 @@ std::span<const Lmd> MinimaFinder::findOne(const Task& task, const RigidTransfor
 void MinimaFinder::mergeByArea(const Task& task, const RigidTransform& bodyFromPart, double cutoff,
                                std::span<Lmd> found) noexcept {
   if (!mergesAreas_) {
-    result_.areas += static_cast<std::uint32_t>(found.size());
+    result_.areas += static_cast<std::uint32_t>(
+        std::ranges::count_if(found, [](const Lmd& lmd) { return !lmd.isBlocked; }));
     return;
   }
   const AreaResult merged =

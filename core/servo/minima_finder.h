@@ -69,8 +69,8 @@ class MinimaFinder {
   static constexpr MinimaAllowance kShown{3U << 11, 3U << 11}, kShownInFullTick{1U << 10, 1U << 11};
 
   struct Result {
-    std::uint32_t count = 0;  ///< Minima found, of all bodies.
-    std::uint32_t areas = 0;  ///< Areas of contact of these; `count` without merging, blocked ones then too.
+    std::uint32_t count = 0;       ///< Minima found, of all bodies.
+    std::uint32_t areas = 0;       ///< Areas of contact of these; without merging all that are not blocked.
     std::uint32_t lateBodies = 0;  ///< Bodies searched anew, since no list covered the pose.
     bool isTruncated = false;      ///< Minima may be missing.
     bool isPoseBad = false;        ///< The pose of a body is invalid.

@@ -225,11 +225,12 @@ Wrench ServoTick::feelSprings(const Tick& tick) noexcept {
   const SpringShares bounded =
       boundedSprings(sum.directions, tick.settings.springs, tick.limits, periodMeter_.heldPeriod());
   springShares_ = risenShares(springShares_, bounded, tick.period);
-  tick.snapshot.springShares = springShares_;
+  // Shares rise for a while after the last spring; then nothing is held back.
+  tick.snapshot.springShares = sum.directions.alongOneLine() > 0.0 ? springShares_ : SpringShares{};
   showOverlaps(tick);
   tick.snapshot.isOverlapUnknown =
       tick.scene.moving.geometry != nullptr && !(tick.tracked.clearanceSpent(part_.pose) < 1.0);
-  return {mass_.weight + springShares_.force * sum.wrench.force, springShares_.torque * sum.wrench.torque};
+  return {mass_.weight + springShares_.wrench * sum.wrench.force, springShares_.wrench * sum.wrench.torque};
 }
 
 bool ServoTick::areBodiesPlaced(const Tick& tick) const noexcept {

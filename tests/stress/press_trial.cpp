@@ -156,7 +156,7 @@ RigidTransform onDevice(const PressScene& scene) {
 double stiffnessInForce(StressServo& servo) {
   const HapticSettings& settings = servo.parameters().haptics;
   if (settings.mode == HapticMode::Proxy) return servo.snapshot().coupling.stiffness;
-  return servo.snapshot().springShares.force * slopeOf(settings.springs);
+  return servo.snapshot().springShares.wrench * slopeOf(settings.springs);
 }
 
 }  // namespace
@@ -232,7 +232,7 @@ PressResult press(const PressScene& scene, const PressOptions& options) {
           forceStep,
           ledger.largestGain(),
           lag,
-          servo.snapshot().springShares.force,
+          servo.snapshot().springShares.wrench,
           !scene.scene.isKept || scene.scene.isKept(servo.snapshot().proxy)};
 }
 

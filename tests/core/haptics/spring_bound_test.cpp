@@ -72,31 +72,29 @@ TEST(BoundedSprings, WhatTheDeviceBearsIsFeltInFull) {
 
 TEST(BoundedSprings, TheSumAlongOneLineIsHeldToTheBound) {
   const SpringShares shares = sharesOf(alongX(40), kSoft);
-  EXPECT_NEAR(shares.force, 2000.0 / 8000.0, 1e-12);
-  EXPECT_EQ(shares.torque, 1.0);
+  EXPECT_NEAR(shares.wrench, 2000.0 / 8000.0, 1e-12);
   EXPECT_TRUE(shares.isHeld());
   // 20 springs of 0.02 N s/m leave 0.6 N s/m: 1200 N/m.
   SpringParameters damped = kSoft;
   damped.damping = 0.02;
-  EXPECT_NEAR(sharesOf(alongX(20), damped).force, 1200.0 / 4000.0, 1e-12);
+  EXPECT_NEAR(sharesOf(alongX(20), damped).wrench, 1200.0 / 4000.0, 1e-12);
   EXPECT_EQ(sharesOf(alongX(20), damped).damping, 1.0);
   // 100 have 2 N s/m: half of the device's is left.
   EXPECT_NEAR(sharesOf(alongX(100), damped).damping, 0.25, 1e-12);
-  EXPECT_NEAR(sharesOf(alongX(100), damped).force, 1000.0 / 20000.0, 1e-12);
+  EXPECT_NEAR(sharesOf(alongX(100), damped).wrench, 1000.0 / 20000.0, 1e-12);
 }
 
 TEST(BoundedSprings, ThePrintedLawCountsByItsLargestSlope) {
   SpringParameters printed = kSoft;
   printed.law = SpringLaw::Printed;
   printed.stiffness = 4e5;  // Times 10 mm: 4000 N/m.
-  EXPECT_NEAR(sharesOf(alongX(1), printed).force, 0.5, 1e-12);
+  EXPECT_NEAR(sharesOf(alongX(1), printed).wrench, 0.5, 1e-12);
 }
 
-TEST(BoundedSprings, ALongLeverCostsTorqueAndHalfOfTheForceAtMost) {
-  // 200 N/m at half a metre: 50 N m/rad, where 2 are borne; half of them are for turns. The rest bears 200 N/m.
+TEST(BoundedSprings, ALongLeverCountsAsTurns) {
+  // 200 N/m of 2000 that are borne, and at half a metre 50 N m/rad of 2.
   const SpringShares shares = sharesOf({springAt({0.5, 0.0, 0.0}, {0.0, 1.0, 0.0})}, kSoft);
-  EXPECT_NEAR(shares.torque, 0.9 * 2.0 / 50.0, 1e-12);
-  EXPECT_EQ(shares.force, 1.0);
+  EXPECT_NEAR(shares.wrench, 1.0 / (0.1 + 25.0), 1e-12);
   // A device without torque has nothing to hold back.
   DeviceLimits arm = kDevice;
   arm.maxTorque = arm.rotationalDamping = 0.0;
@@ -106,9 +104,9 @@ TEST(BoundedSprings, ALongLeverCostsTorqueAndHalfOfTheForceAtMost) {
 TEST(BoundedSprings, NothingIsFeltWhereTheBoundHasNoMeaning) {
   DeviceLimits undamped = kDevice;
   undamped.damping = 0.0;
-  EXPECT_EQ(sharesOf(alongX(1), kSoft, undamped).force, 0.0);
+  EXPECT_EQ(sharesOf(alongX(1), kSoft, undamped).wrench, 0.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(boundedSprings(directionsOf(alongX(1), kSoft), kSoft, kDevice, nan).force, 0.0);
+  EXPECT_EQ(boundedSprings(directionsOf(alongX(1), kSoft), kSoft, kDevice, nan).wrench, 0.0);
   // A wrench that overflows is to reach the servo as the fault that it is.
   SpringParameters huge = kSoft;
   huge.stiffness = std::numeric_limits<double>::max();
@@ -151,21 +149,20 @@ TEST(BoundedSprings, InAllSixDirectionsTogetherTheDeviceDampsMoreThanSpringsAndT
     springs.damping = trial % 2 == 0 ? 0.0 : 0.1;
     const SpringShares shares = sharesOf(lmds, springs);
     held += shares.isHeld() ? 1 : 0;
-    // K T / 2 + B over the device's damping, force and torque scaled by their shares: a matrix S K has the eigenvalues of
-    // the symmetric root(S) K root(S).
+    // K T / 2 + B over the device's damping, each held back by its share.
     Matrix6 load{};
     for (const Lmd& lmd : lmds) {
       const glm::dvec3 turn = glm::cross(lmd.partPoint, lmd.direction);
       for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t k = 0; k < 6; ++k) {
-          const auto of = [&](std::size_t axis, bool isScaled) {
+          const auto of = [&](std::size_t axis) {
             const auto at = static_cast<glm::length_t>(axis % 3);
-            const double share = isScaled ? std::sqrt(axis < 3 ? shares.force : shares.torque) : 1.0;
-            return axis < 3 ? share * lmd.direction[at] / std::sqrt(kDevice.damping)
-                            : share * turn[at] / std::sqrt(kDevice.rotationalDamping);
+            return axis < 3 ? lmd.direction[at] / std::sqrt(kDevice.damping)
+                            : turn[at] / std::sqrt(kDevice.rotationalDamping);
           };
-          load[i][k] += 0.5 * kPeriod * springs.stiffness * of(i, true) * of(k, true) +
-                        shares.damping * springs.damping * of(i, false) * of(k, false);
+          load[i][k] +=
+              (0.5 * kPeriod * shares.wrench * springs.stiffness + shares.damping * springs.damping) * of(i) *
+              of(k);
         }
       }
     }
@@ -175,13 +172,13 @@ TEST(BoundedSprings, InAllSixDirectionsTogetherTheDeviceDampsMoreThanSpringsAndT
 }
 
 TEST(RisenShares, FallAtOnceAndRiseInTime) {
-  const SpringShares low{0.2, 0.3, 0.4};
+  const SpringShares low{0.2, 0.4};
   EXPECT_EQ(risenShares({}, low, kPeriod), low);
   SpringShares shares = low;
   for (double time = 0.0; time < kShareRiseTime; time += kPeriod)
     shares = risenShares(shares, {}, kPeriod);
   // To a fraction 1 / e of the way, to first order in the period.
-  EXPECT_NEAR(shares.force, 1.0 - 0.8 * std::exp(-1.0), 0.01);
+  EXPECT_NEAR(shares.wrench, 1.0 - 0.8 * std::exp(-1.0), 0.01);
   for (double time = 0.0; time < 20.0 * kShareRiseTime; time += kPeriod)
     shares = risenShares(shares, {}, kPeriod);
   EXPECT_EQ(shares, SpringShares{}) << "ends";

@@ -265,18 +265,18 @@ TEST_F(ServoTickOnFloor, AnOverflowingForceIsAFaultAndSendsNothing) {
 }
 
 TEST_F(ServoTickOnFloor, SpringsStifferThanTheDeviceBearsAreHeldToIt) {
-  parameters_.limits = {
-      100.0, 100.0};  // 1 N s/m: 2000 N/m at 1 kHz. The lever of half a metre asks for half of that.
+  parameters_.limits = {100.0, 100.0};
   parameters_.haptics.springs.stiffness = 1e4;
   const ServoSnapshot& s = tickAt(0.04);
   EXPECT_EQ(s.areaCount, 1U);
-  EXPECT_NEAR(s.springShares.force, 0.1, 1e-9);
-  EXPECT_NEAR(s.unclampedWrench.force.z, 1000.0 * 0.06, 1e-6);
-  // 2 (1e-3 N m s/rad) / T / 2 = 1 N m/rad, where the springs have 1e4 / 4.
-  EXPECT_NEAR(s.unclampedWrench.torque.y, -1e4 * 0.06 * 0.5 / 2500.0, 1e-9);
+  // At 1 kHz 1 N s/m bears 2000 N/m, and 1e-3 N m s/rad 2 N m/rad, where the lever of half a metre has 1e4 / 4.
+  const double share = 1.0 / (1e4 / 2000.0 + 2500.0 / 2.0);
+  EXPECT_NEAR(s.springShares.wrench, share, 1e-9);
+  EXPECT_NEAR(s.unclampedWrench.force.z, share * 1e4 * 0.06, 1e-6);
+  EXPECT_NEAR(s.unclampedWrench.torque.y, -share * 1e4 * 0.06 * 0.5, 1e-6);
   // Softer ones are felt in full again, after a while.
   parameters_.haptics.springs.stiffness = 1.0;
-  EXPECT_LT(tickAt(0.04).springShares.force, 0.2);
+  EXPECT_LT(tickAt(0.04).springShares.wrench, 0.2);
   for (double time = 0.0; time < 20.0 * kShareRiseTime; time += kPeriod)
     tickAt(0.04);
   EXPECT_EQ(tickAt(0.04).springShares, SpringShares{});

@@ -96,9 +96,9 @@ void SpringPage::showBound() {
                      .arg(formatNumber(most), formatDuration(basis_.period), formatNumber(device.damping));
   const bool isHeld = basis_.springs && basis_.shares.isHeld();
   if (isHeld) {
-    text += tr(" Springs now: %1; felt of them: %2 % of the force, %3 % of the torque.")
+    text += tr(" Springs now: %1; felt of them: %2 %.")
                 .arg(*basis_.springs)
-                .arg(formatNumber(100.0 * basis_.shares.force), formatNumber(100.0 * basis_.shares.torque));
+                .arg(formatNumber(100.0 * basis_.shares.wrench));
   } else if (basis_.springs) {
     text += tr(" Springs now: %1, felt in full.").arg(*basis_.springs);
   }
