@@ -12,7 +12,7 @@ struct DeviceTestOptions {
   bool isCalibrating = false;  ///< See HapticDevice::calibrate().
   /// Where a report for others goes (writeDeviceReport()); empty for none. The test is longer then: noise at rest, axes
   /// by motions that a user at a terminal is asked for, and forces from 0.1 N on.
-  std::filesystem::path report;
+  std::filesystem::path report = {};
 };
 
 /// Tests a device: opens it, watches its reports and poses and, with consent, arms it and pushes gently along
