@@ -61,7 +61,7 @@ glm::dvec3 randomDirection(std::mt19937_64& random) {
 }
 
 /// A ball of 0.5 in a bowl of 1: the gap is smallest where the centre is off to, 0.5 less the way there.
-class BallInBowl : public testing::Test {
+class BallInBowlAreas : public testing::Test {
  protected:
   static constexpr double kBall = 0.5, kBowl = 1.0, kRange = 0.25;
 
@@ -100,7 +100,7 @@ class BallInBowl : public testing::Test {
   }
 };
 
-TEST_F(BallInBowl, TheForceOfOneSpringAnAreaConvergesAndTheRawSumDoesNot) {
+TEST_F(BallInBowlAreas, TheForceOfOneSpringAnAreaConvergesAndTheRawSumDoesNot) {
   double last = 1.0;
   for (const std::uint32_t level : {2U, 3U, 4U, 5U}) {
     const Errors errors = errorsOf(level);
