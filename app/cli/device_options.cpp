@@ -22,14 +22,15 @@ void addDeviceFileOptions(CLI::App& command, DeviceFiles& files) {
       ->group(kGroup);
 }
 
-std::vector<DeviceListing> devicesPluggedIn(const PluginSearch& plugins) {
+std::vector<DeviceListing> devicesPluggedIn(const PluginSearch& plugins,
+                                            std::vector<MissingDriver>* missing) {
   std::vector<std::string> problems;
   std::vector<DeviceListing> devices;
   try {
-    devices = listDevices(UsbBus(), plugins, problems);
+    devices = listDevices(UsbBus(), plugins, problems, missing);
   } catch (const DeviceError& error) {
     // A machine without USB may still have devices that their makers' software finds.
-    devices = listPluginDevices(plugins, problems);
+    devices = listPluginDevices(plugins, problems, missing);
     if (devices.empty()) throw;
     problems.emplace_back(error.what());
   }

@@ -23,7 +23,9 @@ void addDeviceFileOptions(CLI::App& command, DeviceFiles& files);
 
 /// Returns the devices that are plugged in now; prints problems of plug-ins to stderr as
 /// warnings. Throws DeviceError.
-std::vector<DeviceListing> devicesPluggedIn(const PluginSearch& plugins);
+/// @param missing  As for listPluginDevices().
+std::vector<DeviceListing> devicesPluggedIn(const PluginSearch& plugins,
+                                            std::vector<MissingDriver>* missing = nullptr);
 
 /// Returns the file of a recorded hand that is named as a device, "replay:FILE"; else std::nullopt.
 std::optional<std::filesystem::path> recordingMeant(const std::string& wanted);

@@ -124,8 +124,8 @@ void runDevices(const DevicesOptions& options) {
     return testDevice(*device, {options.hasConsent, options.isJson, options.isCalibrating, options.report});
   }
   const PluginSearch plugins = loadPlugins(pluginFolders());
-  const std::vector<DeviceListing> devices = devicesPluggedIn(plugins);
-  const std::vector<MissingDriver> missing = missingDrivers(plugins);
+  std::vector<MissingDriver> missing;
+  const std::vector<DeviceListing> devices = devicesPluggedIn(plugins, &missing);
   print(options.isJson ? devicesJson(devices, missing) : devicesText(devices, missing));
 }
 

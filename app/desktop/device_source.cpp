@@ -92,13 +92,14 @@ class PluggedIn final : public DeviceSource {
     isFirst_ = false;
     if (bus_) changes_ = bus_->changes();
     std::vector<std::string> problems;
-    devices_ = bus_ ? listDevices(*bus_, plugins_, problems) : listPluginDevices(plugins_, problems);
+    std::vector<MissingDriver> missing;
+    devices_ = bus_ ? listDevices(*bus_, plugins_, problems, &missing)
+                    : listPluginDevices(plugins_, problems, &missing);
     QVector<ui::DeviceChoice> choices;
     for (const DeviceListing& each : devices_)
       choices.push_back(choiceOf(each));
     for (const std::string& each : problems)
       choices.push_back(noticeOf(each));
-    const std::vector<MissingDriver> missing = missingDrivers(plugins_);
     missing_ = missing.size();
     for (const MissingDriver& each : missing)
       choices.push_back(missingOf(each));

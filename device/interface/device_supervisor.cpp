@@ -30,6 +30,8 @@ const char* faultReason(DeviceFault fault) noexcept {
       return "its connection is disturbed: plug it straight into the computer";
     case DeviceFault::SwitchedOff:
       return "its forces were turned off at the device";
+    case DeviceFault::PoseUnknown:
+      return "it no longer knows where its handle is: calibrate it";
   }
   return "";
 }
@@ -115,6 +117,12 @@ void DeviceSupervisor::disarm() noexcept {
 void DeviceSupervisor::calibrated() noexcept {
   isCalibrated_.store(true, std::memory_order_release);
   change(DeviceState::Uncalibrated, DeviceState::Ready);
+}
+
+void DeviceSupervisor::uncalibrated() noexcept {
+  isCalibrated_.store(false, std::memory_order_release);
+  change(DeviceState::Ready, DeviceState::Uncalibrated);
+  if (state() == DeviceState::Armed) stop(DeviceFault::PoseUnknown);
 }
 
 void DeviceSupervisor::lost() noexcept {

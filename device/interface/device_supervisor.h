@@ -22,6 +22,7 @@ enum class DeviceFault : std::uint8_t {
   Overloaded,   ///< More force was asked for than it can give.
   BrokenLink,   ///< Its connection is disturbed.
   SwitchedOff,  ///< Its forces were turned off at the device.
+  PoseUnknown,  ///< It lost its calibration while it was armed.
 };
 
 /// Returns the reason as a sentence without a full stop; empty for None.
@@ -86,6 +87,9 @@ class DeviceSupervisor {
   void disarm() noexcept;
   /// Any thread: the device knows its pose now; Uncalibrated becomes Ready.
   void calibrated() noexcept;
+  /// Any thread: the device no longer knows its pose. Ready becomes Uncalibrated; an armed device is stopped, since a
+  /// pose that is not known must not push, and is Uncalibrated once it is reset.
+  void uncalibrated() noexcept;
   /// Any thread: the device is lost, whatever its state.
   void lost() noexcept;
   /// Any thread: stops an open device; the first fault is kept. OutOfReach also discards the calibration.

@@ -78,6 +78,7 @@ std::string OpenHapDevice::name() const {
 
 DeviceInfo OpenHapDevice::info() const {
   DeviceInfo info{name(), capabilities_.rendersTorque ? 6 : 3, DeviceLimits{}, 1.0 / capabilities_.rate};
+  info.sensedAxes = capabilities_.sensesOrientation ? 6 : 3;
   DeviceLimits& limits = info.limits;
   limits.maxForce = capabilities_.maxForce;
   limits.maxTorque = capabilities_.rendersTorque ? capabilities_.maxTorque : 0.0;
@@ -235,7 +236,7 @@ bool OpenHapDevice::readHandle(HandleInput& handle) noexcept {
   handle.isClutched = !hasPose_ || (report.buttons & kClutchButton) != 0;
   hasPose_ = stream_.hasReport();
   handle.hasOwnFrame = true;
-  handle.isTorqueFelt = capabilities_.rendersTorque;
+  handle.isTorqueFelt = capabilities_.rendersTorque || !capabilities_.sensesOrientation;
   handle.buttons = report.buttons;
   handle.isArmed = stream_.supervisor().check(
       {handle.age, glm::length(velocity_), (report.status & PoseStatus::kDeadManHeld) != 0});

@@ -12,6 +12,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/auxv.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -129,15 +130,23 @@ void endText(char (&text)[n]) noexcept {
 
 }  // namespace
 
-bool checkDescription(NearfitDeviceDescription& device) noexcept {
+std::string descriptionProblem(NearfitDeviceDescription& device) {
   endText(device.name);
   endText(device.serial);
   const std::array<double, 8> numbers = {device.max_force,          device.max_torque, device.damping,
                                          device.rotational_damping, device.mass,       device.inertia,
                                          device.max_speed,          device.rate};
-  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x) && x >= 0.0; }) &&
-         (device.force_axes == 0 || device.force_axes == 3 || device.force_axes == 6) &&
-         (device.sensed_axes == 3 || device.sensed_axes == 6);
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x) && x >= 0.0; }))
+    return "a number is negative or not finite";
+  if (device.rate != 0.0 && !(device.rate >= kMinPluginRate && device.rate <= kMaxPluginRate)) {
+    return fmt::format("its rate is {:g} Hz, but has to be 0 or from {:g} to {:g} Hz", device.rate,
+                       kMinPluginRate, kMaxPluginRate);
+  }
+  if (device.force_axes != 0 && device.force_axes != 3 && device.force_axes != 6)
+    return fmt::format("it pushes along {} axes, but has to along 0, 3 or 6", device.force_axes);
+  if (device.sensed_axes != 3 && device.sensed_axes != 6)
+    return fmt::format("it senses {} axes, but has to sense 3 or 6", device.sensed_axes);
+  return {};
 }
 
 std::shared_ptr<const DevicePlugin> DevicePlugin::load(const fs::path& file) {
@@ -179,9 +188,9 @@ std::vector<NearfitDeviceDescription> DevicePlugin::devices() const {
     NearfitDeviceDescription& device = found.emplace_back();
     if (functions_->describe(i, &device, error.data(), error.size()) != 0)
       throw DeviceError(DeviceProblem::Failed, name(), textOf(error), "plug the device in again");
-    if (!checkDescription(device)) {
+    if (const std::string problem = descriptionProblem(device); !problem.empty()) {
       throw DeviceError(DeviceProblem::Unsupported, name(),
-                        std::string("its description of ") + device.name + " is not valid",
+                        std::string("its description of ") + device.name + " is not valid: " + problem,
                         "ask the plug-in's maker for a working version");
     }
   }

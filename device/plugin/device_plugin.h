@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "device/interface/device_supervisor.h"
 #include "device/interface/haptic_device.h"
 #include "device/plugin/nearfit_device.h"
 
@@ -50,8 +51,12 @@ struct PluginSearch {
 /// Loads all `*.so` in the folders, by name. Missing folders are skipped.
 PluginSearch loadPlugins(const std::vector<std::filesystem::path>& folders);
 
-/// Ends the texts of a description. Returns false if a number of it is not valid.
-bool checkDescription(NearfitDeviceDescription& device) noexcept;
+/// Rates at which a plug-in may pace the servo [Hz]. Below, forces would have to live on for more than 40 ms without a
+/// pose; above, the servo could not keep up, so the number is a mistake.
+inline constexpr double kMinPluginRate = 100.0, kMaxPluginRate = 20'000.0;
+
+/// Ends the texts of a description. Returns what is not valid in it, for a sentence; empty if all is.
+std::string descriptionProblem(NearfitDeviceDescription& device);
 
 /// Returns the folders searched for plug-ins: those that NEARFIT_PLUGINS lists, separated by colons; else
 /// `nearfit/plugins` in XDG_DATA_HOME (~/.local/share), `plugins` beside the program, `nearfit/plugins` in the `lib`
@@ -60,8 +65,10 @@ bool checkDescription(NearfitDeviceDescription& device) noexcept;
 std::vector<std::filesystem::path> pluginFolders();
 
 /// Creates a plug-in's device; opens nothing yet.
-/// @param index  Index in the latest devices().
+/// @param index   Index in the latest devices().
+/// @param safety  The device may lower their speeds only. It says itself whether it has a dead-man switch.
 std::unique_ptr<HapticDevice> makePluginDevice(std::shared_ptr<const DevicePlugin> plugin, int index,
-                                               const NearfitDeviceDescription& description);
+                                               const NearfitDeviceDescription& description,
+                                               const SafetyLimits& safety = {});
 
 }  // namespace nearfit

@@ -24,7 +24,8 @@ extern "C" {
 /* Result of count() if the maker's driver is not installed or does not run; `error` then says what to install. */
 #define NEARFIT_DEVICE_NO_DRIVER (-2)
 
-/* A device that is plugged in. All numbers are finite and >= 0; texts are UTF-8 and end in a zero byte. */
+/* A device that is plugged in. All numbers are finite and >= 0, and `rate` is 0 or from 100 to 20000; texts are UTF-8 and
+ * end in a zero byte. */
 typedef struct NearfitDeviceDescription {
   char name[128];            /* Shown to the user. */
   char serial[64];           /* Serial number; empty if it has none. */
@@ -41,7 +42,7 @@ typedef struct NearfitDeviceDescription {
   double max_speed;          /* Above it Nearfit stops the device [m/s]; 0, or more than 3, counts as 3. */
 } NearfitDeviceDescription;
 
-/* Bits of NearfitDevicePose.flags. */
+/* Bits of NearfitDevicePose.flags. An armed device whose pose is no longer known is stopped. */
 enum {
   NEARFIT_DEVICE_CALIBRATED = 1,   /* The pose is known. The device cannot be armed before. */
   NEARFIT_DEVICE_DEAD_MAN_HELD = 2 /* The hand holds the dead-man switch. */
@@ -59,12 +60,13 @@ enum {
 };
 
 /* Pose of the handle, in the device's frame. Nearfit stops the device if a number is not finite, or if the
- * rotation's length differs from 1 by more than 0.01. */
+ * rotation's length differs from 1 by more than 0.01. With its age forces fade from 5 ms, or two periods of `rate` if
+ * that is longer, on; at 20 ms, or four periods of `rate`, it is stopped. */
 typedef struct NearfitDevicePose {
   double position[3]; /* [m] */
   double rotation[4]; /* Unit quaternion w, x, y, z: from the handle's axes to the device's. */
   double velocity[3]; /* [m/s] */
-  double age;         /* Since the measurement [s]. Forces fade from 5 ms on; at 20 ms it is stopped. */
+  double age;         /* Since the measurement [s]. */
   uint32_t buttons;   /* One bit per pressed button. Bit 0 is the clutch: while held, the part stays. */
   uint32_t flags;     /* NEARFIT_DEVICE_... bits. */
   uint32_t fault;     /* NEARFIT_FAULT_... */
@@ -104,7 +106,8 @@ typedef struct NearfitDevicePlugin {
   /* The user says that the handle is in its rest, or free to be moved by the device: finds its pose. May take
    * seconds. Returns 0 on success. Null if there is nothing to do. */
   int32_t (*calibrate)(NearfitDevice* device, char* error, size_t error_size);
-  /* Clears a fault, which comes again if its cause persists. Returns 0 on success. Null if there is nothing to do. */
+  /* Clears a fault, which comes again if its cause persists; called only after one. Returns 0 on success. Null if there
+   * is nothing to do. */
   int32_t (*reset)(NearfitDevice* device, char* error, size_t error_size);
   /* Says why the device is stopped, or what it waits for, as a sentence without a full stop; empty if there is nothing
    * to say. Null if it never says anything. */

@@ -60,8 +60,8 @@ DeviceFault faultFrom(std::uint32_t fault) noexcept {
 class PluginDevice final : public HapticDevice {
  public:
   PluginDevice(std::shared_ptr<const DevicePlugin> plugin, int index,
-               const NearfitDeviceDescription& description)
-      : plugin_(std::move(plugin)), index_(index), description_(description) {}
+               const NearfitDeviceDescription& description, const SafetyLimits& safety)
+      : plugin_(std::move(plugin)), index_(index), description_(description), safety_(safety) {}
   ~PluginDevice() override { stop(); }
 
   DeviceInfo info() const override {
@@ -113,7 +113,7 @@ class PluginDevice final : public HapticDevice {
                         "close other programs that use it, or plug it in again");
     }
     takeDetails();
-    SafetyLimits limits;
+    SafetyLimits limits = safety_;
     limits.hasDeadMan = description_.has_dead_man != 0;
     limits.keepBelow(description_.max_speed);
     if (isPacing()) limits.keepPace(1.0 / description_.rate);
@@ -149,6 +149,8 @@ class PluginDevice final : public HapticDevice {
                       "it could not be calibrated: " + wordsOf(error));
   }
   void reset() override {
+    // The plug-in turns forces off as it resets: an armed device would push no more and look armed.
+    if (state() != DeviceState::Fault) return;
     PluginText error{};
     if (device_ != nullptr && functions().reset != nullptr &&
         functions().reset(device_, error.data(), error.size()) != 0) {
@@ -215,18 +217,22 @@ class PluginDevice final : public HapticDevice {
   }
   void takeDetails() {
     NearfitDeviceDescription details{};
-    if (functions().details(device_, &details) == 0 && checkDescription(details)) {
+    const std::string problem =
+        functions().details(device_, &details) == 0 ? descriptionProblem(details) : "the plug-in gives none";
+    if (problem.empty()) {
       description_ = details;
       return;
     }
     functions().close(device_);
     device_ = nullptr;
     supervisor_.closed(DeviceState::Present);
-    throw DeviceError(DeviceProblem::Unsupported, description_.name, "its description is not valid",
+    throw DeviceError(DeviceProblem::Unsupported, description_.name,
+                      "its description is not valid: " + problem,
                       "ask the plug-in's maker for a working version");
   }
   void take(const NearfitDevicePose& pose) noexcept {
-    if (isSound(pose)) {
+    const bool hasSense = isSound(pose);
+    if (hasSense) {
       last_ = pose;
       if (isNew_ || !isPacing()) poses_.fetch_add(1, std::memory_order_relaxed);
       isNew_ = false;
@@ -235,12 +241,18 @@ class PluginDevice final : public HapticDevice {
       supervisor_.stop(DeviceFault::Garbage);
     }
     if (pose.fault != NEARFIT_FAULT_NONE) supervisor_.stop(faultFrom(pose.fault));
-    if ((pose.flags & NEARFIT_DEVICE_CALIBRATED) != 0) supervisor_.calibrated();
+    if (!hasSense) return;
+    // After the fault, which may be why: the first reason is kept.
+    if ((pose.flags & NEARFIT_DEVICE_CALIBRATED) != 0)
+      supervisor_.calibrated();
+    else
+      supervisor_.uncalibrated();
   }
 
   std::shared_ptr<const DevicePlugin> plugin_;
   int index_;
   NearfitDeviceDescription description_;
+  const SafetyLimits safety_;
   NearfitDevice* device_ = nullptr;
   DeviceSupervisor supervisor_;
   NearfitDevicePose last_{};
@@ -251,8 +263,9 @@ class PluginDevice final : public HapticDevice {
 }  // namespace
 
 std::unique_ptr<HapticDevice> makePluginDevice(std::shared_ptr<const DevicePlugin> plugin, int index,
-                                               const NearfitDeviceDescription& description) {
-  return std::make_unique<PluginDevice>(std::move(plugin), index, description);
+                                               const NearfitDeviceDescription& description,
+                                               const SafetyLimits& safety) {
+  return std::make_unique<PluginDevice>(std::move(plugin), index, description, safety);
 }
 
 }  // namespace nearfit

@@ -108,41 +108,34 @@ bool DeviceListing::isSamePlugging(const DeviceListing& other) const noexcept {
   return usb.isSamePlugging(other.usb);
 }
 
-std::vector<DeviceListing> listPluginDevices(const PluginSearch& plugins,
-                                             std::vector<std::string>& problems) {
+std::vector<DeviceListing> listPluginDevices(const PluginSearch& plugins, std::vector<std::string>& problems,
+                                             std::vector<MissingDriver>* missing) {
   std::vector<DeviceListing> devices;
   problems = plugins.problems;
+  if (missing != nullptr) missing->clear();
   for (const std::shared_ptr<const DevicePlugin>& plugin : plugins.plugins) {
     try {
       addDevicesOf(plugin, devices);
     } catch (const DeviceError& error) {
-      if (error.cause() != DeviceProblem::NoDriver) problems.emplace_back(error.what());
+      if (error.cause() != DeviceProblem::NoDriver)
+        problems.emplace_back(error.what());
+      else if (missing != nullptr)
+        missing->push_back({plugin->name(), error.remedy()});
     }
   }
   return devices;
 }
 
-std::vector<MissingDriver> missingDrivers(const PluginSearch& plugins) {
-  std::vector<MissingDriver> missing;
-  for (const std::shared_ptr<const DevicePlugin>& plugin : plugins.plugins) {
-    try {
-      plugin->devices();
-    } catch (const DeviceError& error) {
-      if (error.cause() == DeviceProblem::NoDriver) missing.push_back({plugin->name(), error.remedy()});
-    }
-  }
-  return missing;
-}
-
 std::vector<DeviceListing> listDevices(const UsbBus& bus, const PluginSearch& plugins,
-                                       std::vector<std::string>& problems) {
+                                       std::vector<std::string>& problems,
+                                       std::vector<MissingDriver>* missing) {
   std::vector<DeviceListing> devices;
   for (const UsbDescription& usb : bus.list()) {
     std::optional<DeviceMatch> match = recognise(usb);
     if (!match) match = recogniseByName(usbMakerName(usb) + ' ' + usbProductName(usb));
     if (match) devices.push_back(listingOf(usb, *match));
   }
-  for (DeviceListing& each : listPluginDevices(plugins, problems))
+  for (DeviceListing& each : listPluginDevices(plugins, problems, missing))
     devices.push_back(std::move(each));
   return devices;
 }

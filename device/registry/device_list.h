@@ -45,19 +45,20 @@ struct MissingDriver {
   std::string remedy;  ///< What to install, in one line.
 };
 
-/// Lists the plug-ins that cannot do without what their makers give out, and do not find it. That is no problem unless
-/// somebody has such a device, so listDevices() does not tell of it.
-std::vector<MissingDriver> missingDrivers(const PluginSearch& plugins);
-
-/// Lists the devices of plug-ins alone, for machines without USB.
+/// Lists the devices of plug-ins alone, for machines without USB. Asks each plug-in once: it may take a while.
 /// @param problems  Receives a sentence for each failure; earlier content is discarded.
-std::vector<DeviceListing> listPluginDevices(const PluginSearch& plugins, std::vector<std::string>& problems);
+/// @param missing   If not null, receives the plug-ins that cannot do without what their makers give out, and do not
+///                  find it; earlier content is discarded. That is no problem unless somebody has such a device.
+std::vector<DeviceListing> listPluginDevices(const PluginSearch& plugins, std::vector<std::string>& problems,
+                                             std::vector<MissingDriver>* missing = nullptr);
 
 /// Lists the known devices that are plugged in: USB devices by bus and address, then those of plug-ins. Opens
 /// device nodes only for a moment. Throws DeviceError if USB cannot be listed.
 /// @param problems  Receives a sentence for each failure of a plug-in; earlier content is discarded.
+/// @param missing   As for listPluginDevices().
 std::vector<DeviceListing> listDevices(const UsbBus& bus, const PluginSearch& plugins,
-                                       std::vector<std::string>& problems);
+                                       std::vector<std::string>& problems,
+                                       std::vector<MissingDriver>* missing = nullptr);
 
 /// Returns the first usable device that matches `wanted`: a driver ("openhap"), an ID, a place, a node in
 /// /dev or a part of the name, in upper or lower case; empty matches any. Throws DeviceError that lists the

@@ -77,8 +77,9 @@ struct ServoLoop::Shared {
   RealtimeGrant grant;
   std::optional<MemoryLock> memoryLock;
   std::optional<AwakeProcessors> awake;
-  std::optional<ReservedProcessor>
-      processor;  ///< Where no SCHED_FIFO is granted, all but a free processor are late.
+  /// Held while this loop runs: helpers of parallel loops then leave a processor free. Without SCHED_FIFO a thread that
+  /// wakes waits for theirs to be let go; with it, it still shares caches and cores with them.
+  std::optional<ReservedProcessor> processor;
   pthread_t thread{};
   bool isJoinable = false;
   bool isDeviceToStop = false;

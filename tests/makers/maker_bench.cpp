@@ -1,11 +1,13 @@
 #include "tests/makers/maker_bench.h"
 
+#include <chrono>
 #include <fstream>
 #include <stdexcept>
 
 #include <dlfcn.h>
 
 #include "device/thread/monotonic_clock.h"
+#include "tests/support/eventually.h"
 
 namespace nearfit::test {
 namespace {
@@ -25,6 +27,13 @@ Standin& loaded(const char* file) {
 }
 
 }  // namespace
+
+SafetyLimits patientSafety() {
+  const double silence = 2.0 * std::chrono::duration<double>(kPatience).count();
+  SafetyLimits safety;
+  safety.patience = {silence, silence};
+  return safety;
+}
 
 MakerBench::MakerBench(const MakerModel& model) {
   std::string plugin = NEARFIT_PLUGIN_FOLDER;
@@ -55,8 +64,8 @@ MakerBench::MakerBench(const MakerModel& model) {
 
 MakerBench::~MakerBench() = default;
 
-std::unique_ptr<HapticDevice> MakerBench::make(int index) {
-  return makePluginDevice(plugin_, index, plugin_->devices().at(static_cast<std::size_t>(index)));
+std::unique_ptr<HapticDevice> MakerBench::make(int index, const SafetyLimits& safety) {
+  return makePluginDevice(plugin_, index, plugin_->devices().at(static_cast<std::size_t>(index)), safety);
 }
 
 void MakerBench::endService() {

@@ -40,9 +40,16 @@ inline std::ostream& operator<<(std::ostream& out, const MakerModel& model) {
   return out << model.name;
 }
 
+/// Limits of a device that no stall of a loaded machine stops: it may be silent for longer than any test waits. Those that
+/// ship are SafetyLimits{}; only tests of silence itself, and those for machines that do nothing else, have them.
+SafetyLimits patientSafety();
+
 /// A maker's plug-in, as it is built, over what stands in for the maker's driver.
 class MakerBench {
  public:
+  /// Within which Haply's service has to answer, for NEARFIT_HAPLY_PATIENCE [ms]: as long as any test waits.
+  static constexpr const char* kServicePatience = "60000";
+
   explicit MakerBench(const MakerModel& model);
   ~MakerBench();
   MakerBench(const MakerBench&) = delete;
@@ -52,7 +59,7 @@ class MakerBench {
   StandinDevice& device(std::size_t index = 0) noexcept { return standin_->devices.at(index); }
   const std::shared_ptr<const DevicePlugin>& plugin() const noexcept { return plugin_; }
   /// Creates the driver of a device that the plug-in lists now.
-  std::unique_ptr<HapticDevice> make(int index = 0);
+  std::unique_ptr<HapticDevice> make(int index = 0, const SafetyLimits& safety = patientSafety());
   /// Only of Haply: ends the service.
   void endService();
 
@@ -60,6 +67,7 @@ class MakerBench {
   TemporaryFolder folder_;
   std::unique_ptr<HaplyStandin> service_;
   std::optional<ScopedVariable> setup_;  ///< Where the plug-in looks.
+  const ScopedVariable patience_{"NEARFIT_HAPLY_PATIENCE", kServicePatience};
   Standin* standin_ = nullptr;
   std::shared_ptr<const DevicePlugin> plugin_;
 };

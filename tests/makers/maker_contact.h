@@ -7,8 +7,9 @@ namespace nearfit::test {
 
 /// What a hand did and felt that pressed a peg on a floor for some time, through the servo and a maker's plug-in.
 struct ContactOutcome {
-  bool wasReady = false, wasFelt = false, cameToRest = false, wasLetGo = false;
-  double force = 0.0;           ///< Upward, at rest in contact [N].
+  bool wasReady = false, wasFelt = false, wasLetGo = false;
+  bool cameToRest = false;      ///< Where the floor's force and the hand's pull balance.
+  double force = 0.0;           ///< Upward, at rest in contact, or as it was last [N].
   double handPull = 0.0;        ///< Of the hand's spring then, downward [N].
   double deepest = 0.0;         ///< The handle's lowest z [m]; the floor is met at -kContactGap.
   double maxEnergyGiven = 0.0;  ///< The most that the motors ever gave the hand [J].
@@ -22,6 +23,7 @@ inline constexpr double kContactGap = 0.01, kContactTarget = 0.018;
 inline constexpr double kContactHand = 300.0;
 
 /// @param seconds  How long the hand presses, and moves sideways as it does; 0: until it is at rest.
-ContactOutcome pressOnFloor(MakerBench& bench, double seconds);
+/// @param safety   SafetyLimits{} where the machine does nothing else: else patientSafety().
+ContactOutcome pressOnFloor(MakerBench& bench, double seconds, const SafetyLimits& safety);
 
 }  // namespace nearfit::test

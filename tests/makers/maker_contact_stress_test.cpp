@@ -9,16 +9,19 @@ namespace {
 
 constexpr double kMinute = 60.0;        // [s]
 constexpr double kMaxRoundTrip = 2e-4;  // p99 [s]
-constexpr double kMaxEnergy = 1e-4;     // As in the short test [J].
+/// Motors that push the handle out of a floor which it is in by a sample's way give that much, and no more: a tenth of
+/// what holds a hand of 100 g at 15 cm/s [J].
+constexpr double kMaxEnergy = 1e-4;
 
 class MakerContactForAMinute : public testing::TestWithParam<test::MakerModel> {};
 
 TEST_P(MakerContactForAMinute, StaysStableGivesNoEnergyAndAnswersInTime) {
   test::MakerBench bench(GetParam());
-  const test::ContactOutcome felt = test::pressOnFloor(bench, kMinute);
+  const test::ContactOutcome felt = test::pressOnFloor(bench, kMinute, SafetyLimits{});
   ASSERT_TRUE(felt.wasReady && felt.wasFelt) << felt.note;
   EXPECT_TRUE(felt.cameToRest && felt.wasLetGo) << felt.note;
   EXPECT_EQ(felt.note, "");
+  EXPECT_GT(felt.deepest, -test::kContactTarget) << "the floor holds the hand up";
   EXPECT_LT(felt.maxEnergyGiven, kMaxEnergy);
   EXPECT_LE(felt.roundTrip.percentile(0.99), kMaxRoundTrip);
 }

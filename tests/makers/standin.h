@@ -42,6 +42,7 @@ class StandinDevice {
   std::atomic<bool> isPlugged{true};     ///< False: as if it were pulled out.
   std::atomic<bool> isStalled{false};    ///< Its driver's thread, or its answers, stand still.
   std::atomic<int> error{0};             ///< The maker's code that each exchange fails with; 0 for none.
+  std::atomic<int> failures{-1};         ///< So many more calls fail with `error`; less than 0: all.
   std::atomic<int> status{0};            ///< What a maker's status has besides errors; see each stand-in.
   std::atomic<bool> isCalibrated{true};  ///< Its pose is known; its maker's call calibrates it.
   std::atomic<int> buttons{0};
@@ -56,6 +57,12 @@ class StandinDevice {
   std::atomic<std::uint64_t> exchanges{0};
   std::atomic<bool> isOpen{false};
 
+  /// Driver's thread: true if a call is to fail with `error`; counts it.
+  bool failsNow() {
+    if (error == 0 || failures == 0) return false;
+    if (failures > 0) --failures;
+    return true;
+  }
   /// What the motors are told from now on.
   void push(const Triple& newForce, const Triple& newTorque) {
     force.set(newForce);
@@ -87,6 +94,7 @@ class StandinDevice {
     isPlugged = isCalibrated = true;
     isStalled = isOpen = false;
     error = status = buttons = 0;
+    failures = -1;
     for (SharedTriple* each : {&position, &velocity, &force, &torque})
       each->set({});
     speed = energyGiven = maxEnergyGiven = 0.0;

@@ -1,7 +1,9 @@
 // Stands in for Force Dimension's libdhd.so and, with STANDIN_DRD, libdrd.so: the functions that the plug-in uses, as the
 // reference of the SDK describes them. Each exchange takes a quarter of a millisecond, as over USB. Models are DHD_DEVICE_...
 // numbers: 33, an omega.3; 34 (or 0), an omega.6; 104, a sigma.7. StandinDevice::error is a DHD_ERROR_... code that each
-// call fails with; StandinDevice::status a cause of forces off, whose forces are off then.
+// call fails with; StandinDevice::status a cause of forces off, whose forces are off then; -1, its power is off; -2, each
+// pose is asked for too early, and is the one before.
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -17,6 +19,9 @@ using nearfit::test::Triple;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kNoDevice = 5, kInUse = 18;
+constexpr int kPowerOff = -1, kTooEarly = -2;  // Of StandinDevice::status.
+/// As a new version has it.
+constexpr int kStatusFields = 17;
 constexpr std::chrono::microseconds kTransfer{250};
 
 struct Dhd {
@@ -33,7 +38,7 @@ struct Dhd {
   /// Fails as the device does now; 0 if it does not.
   int trouble(char id) {
     if (!device(id).isPlugged) return fail(kNoDevice);
-    return device(id).error != 0 ? fail(device(id).error) : 0;
+    return device(id).failsNow() ? fail(device(id).error) : 0;
   }
 };
 
@@ -110,11 +115,12 @@ int dhdEmulateButton(unsigned char, char) {
 int dhdGetStatus(int* status, char id) {
   if (dhd().trouble(id) < 0) return -1;
   const int cause = dhd().device(id).status;
-  std::fill(status, status + 16, 0);
-  status[0] = status[1] = status[2] = 1;
+  std::fill(status, status + kStatusFields, 0);
+  status[0] = cause == kPowerOff ? 0 : 1;
+  status[1] = status[2] = 1;
   status[3] = dhd().device(id).isCalibrated ? 0 : 1;
-  status[5] = dhd().areForcesOn[static_cast<std::size_t>(id)] && cause == 0 ? 1 : 0;
-  status[14] = cause;
+  status[5] = dhd().areForcesOn[static_cast<std::size_t>(id)] && (cause == 0 || cause == kTooEarly) ? 1 : 0;
+  status[14] = std::max(cause, 0);
   return 0;
 }
 int dhdEnableForce(unsigned char isOn, char id) {
@@ -134,7 +140,7 @@ int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double ma
   const double c = std::cos(-dhd().device(id).turn), s = std::sin(-dhd().device(id).turn);
   const double turned[3][3] = {{1, 0, 0}, {0, c, -s}, {0, s, c}};
   std::copy(&turned[0][0], &turned[0][0] + 9, &matrix[0][0]);
-  return 0;
+  return dhd().device(id).status == kTooEarly ? 1 : 0;
 }
 int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
   const Triple v = toDhd(dhd().device(id).velocity.get());

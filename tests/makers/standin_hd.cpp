@@ -1,6 +1,7 @@
 // Stands in for libHD.so: the functions of HDAPI that the plug-in uses, as the OpenHaptics API Reference Guide describes
 // them. Models: 0, a Touch (force along 3 axes); 6, a PHANTOM with torque. StandinDevice::error is an HD_... code that each
-// frame ends with. With STANDIN_OLD it is a version that lacks a function.
+// frame ends with; 0x501 (its scheduler is full) and 0x304 (it has no timer) also keep it from being scheduled and from
+// starting. With STANDIN_OLD it is a version that lacks a function.
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -24,7 +25,8 @@ using Handle = std::uint32_t;
 using Callback = std::uint32_t (*)(void*);
 constexpr Handle kInvalid = 0xFFFFFFFF;
 constexpr double kMillimetre = 1e-3;
-constexpr int kCommError = 0x302, kDeviceFault = 0x300, kAlreadyInitiated = 0x301, kInvalidEnum = 0x100;
+constexpr int kCommError = 0x302, kDeviceFault = 0x300, kAlreadyInitiated = 0x301, kInvalidEnum = 0x100,
+              kTimerError = 0x304, kSchedulerFull = 0x501;
 
 struct Task {
   unsigned long id;
@@ -246,6 +248,7 @@ void hdUpdateCalibration(std::uint32_t) {
 }
 
 void hdStartScheduler() {
+  if (hd().device(hd().current).error == kTimerError) return hd().fail(kTimerError);
   if (hd().isRunning.exchange(true)) return;
   hd().scheduler = std::thread([] { hd().run(); });
 }
@@ -253,6 +256,10 @@ void hdStopScheduler() {
   hd().stop();
 }
 unsigned long hdScheduleAsynchronous(Callback callback, void* data, std::uint16_t) {
+  if (hd().device(hd().current).error == kSchedulerFull) {
+    hd().fail(kSchedulerFull);
+    return 0;
+  }
   const std::lock_guard lock(hd().mutex);
   hd().tasks.push_back({++hd().lastTask, callback, data});
   return hd().lastTask;

@@ -70,6 +70,27 @@ TEST_F(OpenHapOverUsb, OpensReadyAndSaysWhatItIs) {
   EXPECT_EQ(emulator->device()->outstanding(), 0U);
 }
 
+TEST_F(OpenHapOverUsb, TurningIsUnfeltOnlyIfItIsSensedAndMeetsNoTorque) {
+  for (const bool sensesOrientation : {false, true}) {
+    for (const bool rendersTorque : {false, true}) {
+      openhap::Capabilities capabilities = lenient();
+      capabilities.sensesOrientation = sensesOrientation;
+      capabilities.rendersTorque = rendersTorque;
+      use(capabilities);
+      device->start({});
+      const DeviceInfo info = device->info();
+      EXPECT_EQ(info.sensedAxes, sensesOrientation ? 6 : 3);
+      EXPECT_EQ(info.forceAxes, rendersTorque ? 6 : 3);
+      HandleInput handle;
+      ASSERT_TRUE(device->readHandle(handle));
+      EXPECT_EQ(handle.isTorqueFelt, rendersTorque || !sensesOrientation);
+      EXPECT_EQ(info.isTurningUnfelt(), !handle.isTorqueFelt);
+      device->stop();
+      bus.unplug(*emulator->device());
+    }
+  }
+}
+
 TEST_F(OpenHapOverUsb, PosesComeInAndWrenchesGoOutOnceArmed) {
   use(lenient());
   device->start({});

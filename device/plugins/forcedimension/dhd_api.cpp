@@ -35,6 +35,8 @@ DhdApi::DhdApi() : library_({"libdrd.so", "libdrd.so.3", "libdhd.so", "libdhd.so
   if (!canCalibrate() || !library_.find(openId, "drdOpenID") || !library_.find(close, "drdClose")) {
     library_.take(openId, "dhdOpenID", kDhdRemedy);
     library_.take(close, "dhdClose", kDhdRemedy);
+    // The library that did not open a device does not know it either.
+    isInitialized = nullptr;
     autoInit = nullptr;
   }
 }

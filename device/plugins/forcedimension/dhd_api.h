@@ -15,8 +15,8 @@ constexpr int kDelta3 = 63, kDelta6 = 64, kOmega3 = 33, kOmega6 = 34, kOmega7 = 
 /// dhdErrorGetLast().
 constexpr int kErrorCom = 2, kErrorBusy = 3, kErrorNoDriver = 4, kErrorNoDevice = 5, kErrorTimeout = 7,
               kErrorNotReady = 12;
-/// dhdGetStatus(): number of fields, and which is which.
-constexpr std::size_t kMaxStatus = 16;
+/// Fields of dhdGetStatus(), at most. Versions differ (12 to 17), and the SDK writes as many as it has.
+constexpr std::size_t kMaxStatus = 64;
 constexpr std::size_t kStatusPower = 0, kStatusConnected = 1, kStatusReset = 3, kStatusForce = 5,
                       kStatusError = 9, kStatusForceOffCause = 14;
 /// Why forces are off.
@@ -47,7 +47,7 @@ struct DhdApi {
   int (*setWrench)(double, double, double, double, double, double, double, char) = nullptr;
   int (*errorGetLast)() = nullptr;
   const char* (*errorGetLastStr)() = nullptr;
-  /// Of libdrd.so only; null without it, or before version 3: the user calibrates by hand.
+  /// Of libdrd.so only; all or none of the first two. Null without it, or before version 3: the user calibrates by hand.
   bool (*isInitialized)(char) = nullptr;
   int (*autoInit)(char) = nullptr;
   int (*stopRegulation)(bool, char) = nullptr;

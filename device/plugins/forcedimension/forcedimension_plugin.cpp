@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "device/plugins/forcedimension/dhd_api.h"
 #include "device/plugins/kit/device_frame.h"
@@ -61,8 +62,10 @@ constexpr Nanoseconds kAnswerPatience = 150'000;
 constexpr int kPosesPerStatus = 80;
 /// Failures in a row after which a device whose connection is disturbed counts as lost.
 constexpr int kMaxFailures = 20;
-/// Until the device's thread has done what it was asked for.
-constexpr std::chrono::seconds kWorkTime{2};
+/// Until the device's thread has done what it was asked for; what calibrates takes as long as the handle's way.
+constexpr std::chrono::seconds kWorkTime{2}, kCalibrationTime{60};
+/// Before a pose is asked for again that was asked for too early: a fifth of the SDK's own guard of 0.25 ms.
+constexpr std::chrono::microseconds kEarlyPause{50};
 
 class DhdDriver {
  public:
@@ -91,14 +94,17 @@ NearfitDeviceDescription usualDescription(std::int32_t index) {
 class DhdDevice final : public NearfitDevice {
  public:
   DhdDevice(const DhdApi& api, std::int32_t index) : api_(api) {
-    id_ = static_cast<char>(api_.openId(static_cast<char>(index)));
-    if (id_ < 0) throw PluginError(lastWords() + "; close other programs that use it");
+    // Compared as an int: a char has no sign on ARM.
+    const int opened = api_.openId(static_cast<char>(index));
+    if (opened < 0) throw PluginError(lastWords() + "; close other programs that use it");
+    id_ = static_cast<char>(opened);
     describeOpen(index);
     // A gripper has no button: closing it is one.
     if (api_.hasGripper(id_)) api_.emulateButton(dhd::kOn, id_);
     api_.enableForce(dhd::kOff, id_);
     thread_ = std::thread([this] { run(); });
   }
+  /// Waits for a call of the SDK that hangs: nothing else can end it.
   ~DhdDevice() override {
     isEnding_.store(true, std::memory_order_release);
     thread_.join();
@@ -110,8 +116,10 @@ class DhdDevice final : public NearfitDevice {
   NearfitDeviceDescription details() const override { return description_; }
   void setForces(bool areOn) override {
     if (!areOn) exchange().setForces(false);
-    if (!ask([this, areOn] { return api_.enableForce(areOn ? dhd::kOn : dhd::kOff, id_) >= 0; }) && areOn)
-      throw PluginError(lastWords());
+    const std::string problem = ask([this, areOn] {
+      return api_.enableForce(areOn ? dhd::kOn : dhd::kOff, id_) >= 0 ? std::string() : lastWords();
+    });
+    if (areOn && !problem.empty()) throw PluginError(problem);
     exchange().setForces(areOn);
   }
   void calibrate() override {
@@ -119,14 +127,16 @@ class DhdDevice final : public NearfitDevice {
       if (!isCalibrated_.load(std::memory_order_acquire)) throw PluginError(kByHand);
       return;
     }
-    const bool isDone = ask([this] {
-      // The device moves its handle by itself, then lets it go.
-      const bool isWell = api_.autoInit(id_) >= 0;
-      api_.stopRegulation(true, id_);
-      api_.enableForce(dhd::kOff, id_);
-      return isWell;
-    });
-    if (!isDone) throw PluginError(lastWords());
+    const std::string problem = ask(
+        [this] {
+          // The device moves its handle by itself, then lets it go. What failed is asked before later calls succeed.
+          const std::string failure = api_.autoInit(id_) >= 0 ? std::string() : lastWords();
+          api_.stopRegulation(true, id_);
+          api_.enableForce(dhd::kOff, id_);
+          return failure;
+        },
+        kCalibrationTime);
+    if (!problem.empty()) throw PluginError(problem);
   }
   void reset() override {
     words_.store(nullptr, std::memory_order_release);
@@ -143,6 +153,7 @@ class DhdDevice final : public NearfitDevice {
   static constexpr const char* kByHand =
       "put its calibration pole into the pit, or its handle into its end stops, as its manual says";
 
+  /// The SDK's words on the last error, which it keeps for each thread. Never empty.
   std::string lastWords() const {
     const char* const words = api_.errorGetLastStr();
     return words != nullptr && *words != '\0' ? words : "its driver gives no reason";
@@ -171,24 +182,33 @@ class DhdDevice final : public NearfitDevice {
     description_.rotational_damping = plugin::dampingFromStiffness(model.turnStiffness, description_.rate);
   }
 
-  /// Has the device's thread do it between two poses. Returns its result, or false if the thread is stuck.
+  /// Has the device's thread do it between two poses, and forgets it if that has not begun in time.
+  /// @param work  Returns why it failed; empty if it did not.
+  /// Returns what `work` does, or that the thread is stuck.
   template <class Work>
-  bool ask(Work work) {
+  std::string ask(Work work, std::chrono::seconds patience = kWorkTime) {
     std::unique_lock lock(workMutex_);
+    const std::uint64_t mine = ++asked_;
     work_ = std::move(work);
     hasWork_.store(true, std::memory_order_release);
-    // What calibrates takes as long as the handle's way.
-    const bool isCalibration = api_.autoInit != nullptr && !isCalibrated_.load(std::memory_order_acquire);
-    const auto patience = isCalibration ? std::chrono::seconds(60) : kWorkTime;
-    const bool isDone =
-        workDone_.wait_for(lock, patience, [this] { return !hasWork_.load(std::memory_order_acquire); });
-    return isDone && workResult_;
+    if (workDone_.wait_for(lock, patience, [&] { return done_ == mine; })) return workProblem_;
+    work_ = nullptr;
+    hasWork_.store(false, std::memory_order_release);
+    return "its driver does not answer";
   }
+  /// Device's thread. Holds no lock while it works, so that whoever asked can give up.
   void work() {
     if (!hasWork_.load(std::memory_order_acquire)) return;
-    const std::lock_guard lock(workMutex_);
-    workResult_ = work_();
+    std::unique_lock lock(workMutex_);
+    if (!work_) return;
+    const std::uint64_t which = asked_;
+    const std::function<std::string()> next = std::exchange(work_, nullptr);
     hasWork_.store(false, std::memory_order_release);
+    lock.unlock();
+    std::string problem = next();
+    lock.lock();
+    workProblem_ = std::move(problem);
+    done_ = which;
     workDone_.notify_all();
   }
 
@@ -208,9 +228,14 @@ class DhdDevice final : public NearfitDevice {
   void exchangeOnce() noexcept {
     glm::dvec3 position(0.0), velocity(0.0);
     std::array<std::array<double, 3>, 3> rows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    if (api_.getPoseFrame(&position.x, &position.y, &position.z, reinterpret_cast<double(*)[3]>(rows.data()),
-                          id_) < 0)
-      return fail();
+    const int got = api_.getPoseFrame(&position.x, &position.y, &position.z,
+                                      reinterpret_cast<double(*)[3]>(rows.data()), id_);
+    if (got < 0) return fail();
+    if (got > 0) {
+      // DHD_TIMEGUARD: it was too early, and the pose is the one before.
+      std::this_thread::sleep_for(kEarlyPause);
+      return;
+    }
     const Nanoseconds arrived = monotonicNow();
     api_.getLinearVelocity(&velocity.x, &velocity.y, &velocity.z, id_);
     NearfitDevicePose pose{};
@@ -288,8 +313,9 @@ class DhdDevice final : public NearfitDevice {
 
   std::mutex workMutex_;
   std::condition_variable workDone_;
-  std::function<bool()> work_;
-  bool workResult_ = false;
+  std::function<std::string()> work_;   ///< Empty once it has begun.
+  std::uint64_t asked_ = 0, done_ = 0;  ///< Numbers of the last work that was asked for, and done.
+  std::string workProblem_;             ///< Of the work that was done last.
   std::atomic<bool> hasWork_{false};
   std::thread thread_;
 };

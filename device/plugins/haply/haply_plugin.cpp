@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -29,6 +30,10 @@ constexpr double kInverseRate = 1000.0;
 constexpr Nanoseconds kInversePeriod = 1'000'000;
 /// The servo's answer to a pose goes out by itself if it comes within this time, else with the next question.
 constexpr Nanoseconds kInverseAnswer = 500'000;
+/// The service answers within a millisecond; without an answer for so long, Nearfit has stopped the device long before.
+constexpr std::chrono::milliseconds kDevicePatience{500};
+/// Devices are listed twice a second on the window's thread, which a service that hangs must not hold up.
+constexpr std::chrono::milliseconds kInventoryPatience{50};
 /// Messages without a place of the device after which it is gone: half a second.
 constexpr int kMaxAbsent = 500;
 
@@ -53,7 +58,7 @@ class InverseDevice final : public NearfitDevice {
  public:
   explicit InverseDevice(InverseListing listing)
       : listing_(std::move(listing)), description_(descriptionOf(listing_)) {
-    link_.emplace(servicePort());
+    link_.emplace(servicePort(), servicePatience(kDevicePatience));
     take(link_->receive());
     exchangeOnce(/*isLast=*/false);
     thread_ = std::thread([this] { run(); });
@@ -176,7 +181,7 @@ class Inventory {
  private:
   const std::string& nextMessage() {
     if (!link_) {
-      link_.emplace(servicePort());
+      link_.emplace(servicePort(), servicePatience(kInventoryPatience));
       return link_->receive();
     }
     link_->send(inventoryCommand());

@@ -30,9 +30,21 @@ constexpr const char* kHaplyRemedy =
     "for an Inverse3, install Haply Hub or the Haply Inverse Service, and start it (systemctl start "
     "haply-inverse-service)";
 
+/// Returns the number in a variable of the environment, or `usual` if it is none, 0 or too large.
+std::uint16_t positiveIn(const char* variable, std::uint16_t usual) {
+  const char* const text = ::secure_getenv(variable);
+  if (text == nullptr) return usual;
+  std::uint16_t number = 0;
+  const auto [end, error] = std::from_chars(text, text + std::strlen(text), number);
+  return error == std::errc() && *end == '\0' && number != 0 ? number : usual;
+}
+
 }  // namespace
 
 struct ServiceLink::Connection {
+  explicit Connection(std::chrono::milliseconds p) : patience(p) {}
+
+  const std::chrono::milliseconds patience;
   asio::io_context context{1};
   beast::websocket::stream<beast::tcp_stream> stream{context};
   beast::flat_buffer buffer;
@@ -42,7 +54,7 @@ struct ServiceLink::Connection {
   template <class Start>
   void await(const char* what, Start&& start) {
     std::optional<ErrorCode> result;
-    beast::get_lowest_layer(stream).expires_after(kServicePatience);
+    beast::get_lowest_layer(stream).expires_after(patience);
     start([&result](const ErrorCode& error, auto&&...) { result = error; });
     context.restart();
     context.run();
@@ -51,7 +63,8 @@ struct ServiceLink::Connection {
   }
 };
 
-ServiceLink::ServiceLink(std::uint16_t port) : connection_(std::make_unique<Connection>()) {
+ServiceLink::ServiceLink(std::uint16_t port, std::chrono::milliseconds patience)
+    : connection_(std::make_unique<Connection>(patience)) {
   Connection& c = *connection_;
   try {
     c.await("no connection", [&](auto done) {
@@ -90,11 +103,12 @@ const std::string& ServiceLink::receive() {
 }
 
 std::uint16_t servicePort() {
-  const char* const text = ::secure_getenv("NEARFIT_HAPLY_PORT");
-  if (text == nullptr) return kUsualPort;
-  std::uint16_t port = 0;
-  const auto [end, error] = std::from_chars(text, text + std::strlen(text), port);
-  return error == std::errc() && *end == '\0' && port != 0 ? port : kUsualPort;
+  return positiveIn("NEARFIT_HAPLY_PORT", kUsualPort);
+}
+
+std::chrono::milliseconds servicePatience(std::chrono::milliseconds usual) {
+  return std::chrono::milliseconds(
+      positiveIn("NEARFIT_HAPLY_PATIENCE", static_cast<std::uint16_t>(usual.count())));
 }
 
 }  // namespace nearfit::haply

@@ -12,18 +12,16 @@ namespace nearfit::haply {
 class ServiceLink {
  public:
   /// Connects. Throws DriverMissing if nobody listens, PluginError if it is not this service.
-  explicit ServiceLink(std::uint16_t port);
+  /// @param patience  After which what does not answer counts as gone.
+  ServiceLink(std::uint16_t port, std::chrono::milliseconds patience);
   ~ServiceLink();
   ServiceLink(const ServiceLink&) = delete;
   ServiceLink& operator=(const ServiceLink&) = delete;
 
-  /// Sends a text. Throws PluginError if the connection is broken or the service takes nothing for kServicePatience.
+  /// Sends a text. Throws PluginError if the connection is broken or the service takes nothing in time.
   void send(const std::string& text);
   /// Waits for the next message, which is valid until the next call. Throws PluginError as send() does.
   const std::string& receive();
-
-  /// The service answers within a millisecond; without one for so long, Nearfit has stopped the device long before.
-  static constexpr std::chrono::milliseconds kServicePatience{500};
 
  private:
   struct Connection;
@@ -32,5 +30,8 @@ class ServiceLink {
 
 /// The service's port: 10001, or NEARFIT_HAPLY_PORT if its configuration has another.
 std::uint16_t servicePort();
+
+/// Returns `usual`, or NEARFIT_HAPLY_PATIENCE [ms] for a computer that is so busy that the service answers later.
+std::chrono::milliseconds servicePatience(std::chrono::milliseconds usual);
 
 }  // namespace nearfit::haply

@@ -31,6 +31,7 @@ class PoseExchange {
 
   /// Passes a pose on and wakes the servo. Its age and fault are filled in by read().
   void publish(const NearfitDevicePose& pose, Nanoseconds arrived) noexcept {
+    newWrench_.wait(0);  // An answer to the pose before is none to this one.
     poses_.publish(TimedPose{pose, arrived});
     newPose_.ring();
   }

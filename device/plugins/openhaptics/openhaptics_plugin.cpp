@@ -115,8 +115,13 @@ class HdDevice final : public NearfitDevice {
     api_.enable(hd::kForceOutput);
     task_ = api_.scheduleAsynchronous([](void* self) { return static_cast<HdDevice*>(self)->tick(); }, this,
                                       kHdDefaultPriority);
-    api_.startScheduler();
-    if (const std::uint32_t late = takeErrors(api_); late == hd::kCommError || late == hd::kDeviceFault) {
+    std::uint32_t late = takeErrors(api_);
+    if (late == hd::kSuccess) {
+      api_.startScheduler();
+      late = takeErrors(api_);
+    }
+    // Without a callback it would be open and silent.
+    if (late != hd::kSuccess) {
       closeLocked();
       if (driver_.openDevices > 0) api_.startScheduler();
       throw PluginError(wordsOf(late) + "; plug it in again");

@@ -37,6 +37,35 @@ TEST(DeviceSupervisor, WhatIsNotCalibratedIsNotArmed) {
   EXPECT_EQ(open.device.state(), DeviceState::Armed);
 }
 
+TEST(DeviceSupervisor, WhatForgetsItsPoseIsUncalibratedOrStopped) {
+  Open open;
+  open.device.uncalibrated();
+  EXPECT_EQ(open.device.state(), DeviceState::Uncalibrated);
+  open.device.calibrated();
+  open.device.arm("it");
+  EXPECT_TRUE(open.device.check(kCalm));
+  open.device.uncalibrated();
+  EXPECT_EQ(open.device.state(), DeviceState::Fault);
+  EXPECT_EQ(open.device.fault(), DeviceFault::PoseUnknown);
+  EXPECT_FALSE(open.device.check(kCalm));
+  open.device.reset();
+  EXPECT_EQ(open.device.state(), DeviceState::Uncalibrated);
+}
+
+TEST(DeviceSupervisor, APoseThatIsForgottenInAFaultIsStillUnknownOnceItIsReset) {
+  // After its power was off a device was ready again, with its pose anywhere.
+  Open open;
+  open.device.arm("it");
+  open.device.stop(DeviceFault::SwitchedOff);
+  open.device.uncalibrated();
+  EXPECT_EQ(open.device.fault(), DeviceFault::SwitchedOff) << "the first reason is kept";
+  open.device.reset();
+  EXPECT_EQ(open.device.state(), DeviceState::Uncalibrated);
+  open.device.lost();
+  open.device.uncalibrated();
+  EXPECT_EQ(open.device.state(), DeviceState::Lost);
+}
+
 TEST(DeviceSupervisor, AFaultThatIsForgottenDoesNotCalibrate) {
   // Garbage from a device that was uncalibrated left it ready once it was reset.
   Open open({}, false);

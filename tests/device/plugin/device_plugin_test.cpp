@@ -160,16 +160,29 @@ TEST(DevicePlugin, ADescriptionThatMakesNoSenseIsRefused) {
   good.sensed_axes = 6;
   good.force_axes = 3;
   good.rate = 1000.0;
-  EXPECT_TRUE(checkDescription(good));
+  EXPECT_EQ(descriptionProblem(good), "");
   for (const double bad : {-1.0, std::nan(""), HUGE_VAL}) {
     NearfitDeviceDescription wrong = good;
     wrong.rate = bad;
-    EXPECT_FALSE(checkDescription(wrong)) << bad;
+    EXPECT_NE(descriptionProblem(wrong), "") << bad;
   }
   for (const int axes : {0, 4, 7}) {
     NearfitDeviceDescription wrong = good;
     wrong.sensed_axes = axes;
-    EXPECT_FALSE(checkDescription(wrong)) << axes;
+    EXPECT_NE(descriptionProblem(wrong), "") << axes;
+  }
+}
+
+TEST(DevicePlugin, ARateThatTheServoCannotKeepIsRefused) {
+  NearfitDeviceDescription device{};
+  device.sensed_axes = device.force_axes = 3;
+  for (const double rate : {0.0, 100.0, 1000.0, 20'000.0}) {
+    device.rate = rate;
+    EXPECT_EQ(descriptionProblem(device), "") << rate;
+  }
+  for (const double rate : {1e-9, 99.0, 20'001.0, 1e12}) {
+    device.rate = rate;
+    EXPECT_THAT(descriptionProblem(device), HasSubstr("from 100 to 20000 Hz")) << rate;
   }
 }
 
