@@ -159,7 +159,7 @@ TEST(DeviceRegistry, WhatCannotBeUsedIsNotMadeAndToldWhy) {
   } catch (const DeviceError& error) {
     EXPECT_EQ(error.cause(), DeviceProblem::Unsupported);
     EXPECT_THAT(error.where(), HasSubstr("Force Dimension"));
-    EXPECT_THAT(error.problem(), HasSubstr("plug-in"));
+    EXPECT_THAT(error.problem(), HasSubstr("its maker's software"));
   }
   EXPECT_THROW(makeDevice(device(0x046d, 0xc077, 3), {}), DeviceError);
 }
