@@ -415,7 +415,7 @@ SceneCheck checkScene(const SceneCheckRequest& request, const ProgressCallback& 
   SceneCheck result;
   std::exception_ptr failure;
   std::thread runner([&] {
-    lowerThreadPriority(ThreadPriority::Lowest);
+    lowerThreadPriority();
     try {
       result = SceneChecker(request, progress).run();
     } catch (...) {

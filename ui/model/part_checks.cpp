@@ -125,7 +125,7 @@ void PartChecks::start() {
   using Checks = std::vector<std::shared_ptr<const MeshCheck>>;
   const auto checks = std::make_shared<Checks>();
   const auto job = [next, checks](const ProgressCallback& progress) {
-    lowerThreadPriority(ThreadPriority::Lowest);
+    lowerThreadPriority();
     for (const PartGeometryPtr& geometry : next) {
       std::shared_ptr<const MeshCheck> check;
       try {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/parallel/low_priority.h"
 
 namespace nearfit::ui {
 
@@ -45,7 +44,6 @@ void BackgroundTask::work(Running& running, const Job& job) {
     }
     return true;
   };
-  lowerThreadPriority(ThreadPriority::Background);
   std::exception_ptr error;
   try {
     job(progress);

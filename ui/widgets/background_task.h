@@ -12,8 +12,7 @@
 
 namespace nearfit::ui {
 
-/// Runs one job at a time in a worker thread and reports back on this object's thread. The worker, and the threads and
-/// processes that it starts, leave the processors to the window and the servo where those want them.
+/// Runs one job at a time in a worker thread and reports back on this object's thread.
 class BackgroundTask : public QObject {
   Q_OBJECT
 

@@ -49,7 +49,7 @@ std::string savedHash(const ReportWork& work) {
 }
 
 FitReportOutcome makeReport(const ReportWork& work, const ProgressCallback& progress) {
-  lowerThreadPriority(ThreadPriority::Lowest);
+  lowerThreadPriority();
   FitReportRequest request = fitReportRequest(work.scene, work.sceneFile, savedHash(work), work.threshold);
   if (!work.path.empty()) addPath(request, work.path);
   if (!work.certificate.empty()) addCertificate(request, work.certificate);

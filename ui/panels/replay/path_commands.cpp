@@ -176,7 +176,7 @@ void PathCommands::run(const QString& title, const QString& attempt, BackgroundT
   connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
   const auto job = [work = std::move(work)](const ProgressCallback& progress) {
     // The view goes first.
-    lowerThreadPriority(ThreadPriority::Lowest);
+    lowerThreadPriority();
     work(progress);
   };
   task_.run(job, [this, attempt, done = std::move(done)](const std::exception_ptr& error) {

@@ -106,7 +106,7 @@ void PathSuggestion::search(const SuggestionRequest& request) {
   connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
   const auto job = [search](const ProgressCallback& progress) {
     // The view goes first, and a servo.
-    lowerThreadPriority(ThreadPriority::Lowest);
+    lowerThreadPriority();
     search->run(progress);
   };
   task_.run(job, [this, search](const std::exception_ptr& error) {
