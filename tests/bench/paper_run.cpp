@@ -218,7 +218,7 @@ BenchScene ballInBowl(std::size_t triangles) {
           RigidTransform{kAnyTurn, scale * low}, 0.1 * (1.0 - kBallInBowl)};
 }
 
-constexpr std::array<SweptBody, 2> kBodies{{{"lumpy", lumpyPair}, {"ball-bowl", ballInBowl}}};
+const std::array<SweptBody, 2> kBodies{{{"lumpy", lumpyPair}, {"ball-bowl", ballInBowl}}};
 
 }  // namespace
 
