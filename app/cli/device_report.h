@@ -40,7 +40,7 @@ TestStep judgeMotion(const AskedMotion& asked, const glm::dvec3& way);
 
 /// Motion from which judgeMotion() can tell the way [m], [rad].
 inline constexpr double kClearWay = 0.02, kClearTurn = 0.35;
-/// Share of a motion that may be across what was asked for: a hand is no ruler.
+/// Max share of a motion across the direction asked for: no hand moves straight.
 inline constexpr double kMaxAcross = 0.7;
 
 /// Asks for each motion in turn and waits for it, up to 15 s. Prints the requests to stdout.

@@ -264,7 +264,7 @@ bool canAsk(const DeviceTestOptions& options) {
   return !options.isJson && ::isatty(STDIN_FILENO) == 1 && ::isatty(STDOUT_FILENO) == 1;
 }
 
-/// What a report has besides the usual steps, before any force.
+/// Steps that only a report has, before any force.
 void watchForReport(TickedDevice& ticked, Steps& steps, const DeviceTestOptions& options) {
   if (canAsk(options)) {
     print("Take your hands off the handle, or rest it, for a second.\n");

@@ -23,8 +23,8 @@ struct SceneCheckOptions {
 void addSceneCheckOptions(CLI::App& command, CLI::Option& all,
                           const std::shared_ptr<SceneCheckOptions>& options);
 
-/// Checks all pairs of a scene's visible parts and prints what it finds; keeps it in the scene file if asked to. Throws NegativeVerdict if the parts clash and no
-/// rule allows it, UsageError, FileError, Cancelled (after an interrupt).
+/// Checks all pairs of a scene's visible parts and prints what it finds; keeps it in the scene file if asked to. Throws
+/// NegativeVerdict if the parts clash and no rule allows it, UsageError, FileError, Cancelled (after an interrupt).
 void runSceneCheck(const std::string& scene, const SceneCheckOptions& options);
 
 }  // namespace nearfit::cli

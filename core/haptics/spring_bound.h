@@ -37,8 +37,8 @@ struct SpringShares {
 /// Largest slope of a spring's force over its distance: the stiffness, of the printed law stiffness times cutoff [N/m].
 double slopeOf(const SpringParameters& springs) noexcept;
 
-/// What a device bears of a sum of springs. With its damping b, of the springs along one line the stiffness K and the
-/// damping B, and the same of turns about one axis:
+/// The part of a sum of springs that a device bears. With the device's damping b, and the stiffness K and damping B of
+/// the springs along one line, and the same for turns about one axis:
 ///
 ///     (K T / 2 + B) / b  of translation  +  (K T / 2 + B) / b  of turns  <=  1
 ///

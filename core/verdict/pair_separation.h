@@ -43,7 +43,7 @@ std::optional<PairSeparation> separationOf(const PartGeometry& part, const PartG
 struct PairComponents {
   ComponentsOnDemand &part, &other;
 };
-/// As above, but finds the components of a body once, which takes time by the number of its triangles.
+/// The same with components that are kept: those of a body are found once, in time proportional to its triangles.
 std::optional<PairSeparation> separationOf(const PartGeometry& part, const PartGeometry& other,
                                            const RigidTransform& otherFromPart, double within,
                                            LmdScratch& scratch, const PairComponents& components);

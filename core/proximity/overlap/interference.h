@@ -50,7 +50,7 @@ struct InterferenceBody {
   const NormalConeTree& tree;
   ComponentsOnDemand& components;  ///< Of the hierarchy's mesh (containment.h).
 };
-/// As above, but finds the components of a body once, which takes time by the number of its triangles.
+/// The same with components that are kept: those of a body are found once, in time proportional to its triangles.
 Interference findInterference(const InterferenceBody& scene, const InterferenceBody& part,
                               const RigidTransform& sceneFromPart);
 

@@ -11,7 +11,7 @@
 namespace nearfit {
 namespace {
 
-/// As parts of the way; the middle first, where the gap of separate contacts is widest.
+/// Places looked at, as parts of the way; the middle first, where the gap between separate contacts is widest.
 constexpr std::array<double, 3> kAreaPlaces{0.5, 0.25, 0.75};
 
 bool standsForAnArea(const Lmd& lmd, double cutoff) noexcept {

@@ -333,7 +333,7 @@ class ReportPage {
     });
   }
 
-  /// What the last check found, where this one finds something else.
+  /// Findings of the last check, where this one finds something else.
   void putBefore(const std::optional<PairRecord>& before) {
     if (!before) return;
     html_.put(fmt::format(", was {}", wordOf(before->verdict)));
