@@ -108,7 +108,9 @@ TEST_F(BallInBowlAreas, TheForceOfOneSpringAnAreaConvergesAndTheRawSumDoesNot) {
     EXPECT_LT(errors.grouped, 0.65 * last) << level;
     EXPECT_GT(errors.raw, 1.0) << level;
     // Coarse facets leave room between the surfaces that counts as a dent.
-    if (level > 2) EXPECT_EQ(errors.mostAreas, 1U) << level;
+    if (level > 2) {
+      EXPECT_EQ(errors.mostAreas, 1U) << level;
+    }
     last = errors.grouped;
   }
   EXPECT_LT(last, 0.01);
