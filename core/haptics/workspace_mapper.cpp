@@ -65,7 +65,7 @@ void WorkspaceMapper::engageAt(const RigidTransform& device, const RigidTransfor
                                const glm::dvec3& pivotInPart) noexcept {
   pivot_ = pivotInPart;
   setIndex(device, worldFromPart);
-  isDirect_ = device.rotation == worldFromPart.rotation && device.translation == worldFromPart.translation;
+  isDirect_ = device == worldFromPart;
   lastDevice_ = device;
   lastHandle_ = worldFromPart;
   hasMapping_ = false;

@@ -15,6 +15,11 @@ struct RigidTransform {
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
   glm::dvec3 translation{0.0};
 
+  /// Number by number: q and -q, which turn alike, differ.
+  bool operator==(const RigidTransform& other) const noexcept {
+    return rotation == other.rotation && translation == other.translation;
+  }
+
   glm::dvec3 applyToPoint(const glm::dvec3& p) const noexcept { return rotation * p + translation; }
   glm::dvec3 applyToVector(const glm::dvec3& v) const noexcept { return rotation * v; }
 

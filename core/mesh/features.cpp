@@ -34,7 +34,7 @@ constexpr double kSquare = 1e-6;
 
 /// Approximate progress after the faces and after the edges, and the number of features between two reports
 /// (some milliseconds).
-constexpr double kFacesDone = 0.05, kEdgesDone = 0.5;
+constexpr double kFacesTaken = 0.05, kEdgesTaken = 0.5;
 constexpr std::uint32_t kBetweenReports = 8192;
 
 std::optional<glm::dvec3> unit(const glm::dvec3& v) {
@@ -66,9 +66,9 @@ class FeatureFinder {
         normals_(mesh.triangles().size()) {}
 
   MeshFeatures find() {
-    forAll(mesh_.triangles().size(), 0.0, kFacesDone, [this](std::uint32_t f) { addFace(f); });
-    forAll(mesh_.edges().size(), kFacesDone, kEdgesDone, [this](std::uint32_t e) { addEdge(e); });
-    forAll(mesh_.vertices().size(), kEdgesDone, 1.0, [this](std::uint32_t v) { addVertex(v); });
+    forAll(mesh_.triangles().size(), 0.0, kFacesTaken, [this](std::uint32_t f) { addFace(f); });
+    forAll(mesh_.edges().size(), kFacesTaken, kEdgesTaken, [this](std::uint32_t e) { addEdge(e); });
+    forAll(mesh_.vertices().size(), kEdgesTaken, 1.0, [this](std::uint32_t v) { addVertex(v); });
     return std::move(out_);
   }
 

@@ -98,8 +98,7 @@ void checkPath(const AssemblyPath& path, const std::string& where) {
 
 bool isSamePath(const AssemblyPath& a, const AssemblyPath& b) noexcept {
   const auto isSamePose = [](const PathPose& x, const PathPose& y) {
-    return x.time == y.time && x.worldFromLead.translation == y.worldFromLead.translation &&
-           x.worldFromLead.rotation == y.worldFromLead.rotation;
+    return x.time == y.time && x.worldFromLead == y.worldFromLead;
   };
   return a.parts == b.parts && a.centre == b.centre && std::ranges::equal(a.poses, b.poses, isSamePose);
 }

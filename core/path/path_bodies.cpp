@@ -59,7 +59,7 @@ double segmentTravel(const RigidTransform& from, const RigidTransform& to, const
   // Differences of poses are of no use below their rounding.
   const double least =
       4e-16 * (glm::length(from.translation) + glm::length(to.translation) + 2.0 * glm::length(centre));
-  const bool isStill = from.translation == to.translation && from.rotation == to.rotation;
+  const bool isStill = from == to;
   return isStill ? 0.0 : kTravelRounding * (shift + angle * arm) + least + 1e-15 * part.radius;
 }
 

@@ -26,10 +26,6 @@
 namespace nearfit {
 namespace {
 
-bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
-  return a.translation == b.translation && a.rotation == b.rotation;
-}
-
 /// Travel is rounded up by this share, and poses by this of the lengths involved: far below the slack that certifiers
 /// leave (path_certifier.cpp), far above rounding.
 constexpr double kTravelShare = 1.0 + 1e-12, kPoseShare = 2e-14;
@@ -73,7 +69,7 @@ class WayLength {
     const double radius = std::sqrt(squaredRadius);
     for (std::size_t i = 1; i < path.poses.size(); ++i) {
       const RigidTransform &a = path.poses[i - 1].worldFromLead, &b = path.poses[i].worldFromLead;
-      const bool isStill = isSamePose(a, b);
+      const bool isStill = a == b;
       sums_.push_back(sums_.back() +
                       (isStill ? 0.0 : lengthBetween(a, b, path.centre, part, centre, radius)));
     }
@@ -432,7 +428,7 @@ std::string partsProblem(const std::vector<CertifiedPart>& certified,
     if (a.name != b.name || a.isMoving != b.isMoving)
       return fmt::format("the scene has the part \"{}\" where the certificate has \"{}\"", b.name, a.name);
     if (a.meshSha256 != b.meshSha256) return fmt::format("the mesh of \"{}\" differs", a.name);
-    if (!isSamePose(a.pose, b.pose)) return fmt::format("\"{}\" is at another place", a.name);
+    if (a.pose != b.pose) return fmt::format("\"{}\" is at another place", a.name);
   }
   if (certified.size() == present.size()) return {};
   if (certified.size() > present.size())

@@ -101,7 +101,7 @@ bool SlidingMotions::advance(const RigidTransform& from, const RigidTransform& t
     if (near_.empty() && leap(pose, aim, stride, next)) {
       pose = next;
       way.push_back(pose);
-      if (!isTowed && pose.translation == toward.translation && pose.rotation == toward.rotation) return true;
+      if (!isTowed && pose == toward) return true;
       continue;
     }
     const double share = std::min(1.0, 0.95 * stride / left);

@@ -15,10 +15,6 @@ namespace {
 /// Max rounds over the parts: for joints that fit together, each round brings them nearer.
 constexpr int kMaxRounds = 16;
 
-bool isSamePose(const RigidTransform& a, const RigidTransform& b) noexcept {
-  return a.rotation == b.rotation && a.translation == b.translation;
-}
-
 }  // namespace
 
 JointedMotion::JointedMotion(const Scene& scene, const std::vector<PartId>& parts) {
@@ -43,7 +39,7 @@ RigidTransform JointedMotion::nearest(const RigidTransform& wanted) const noexce
     for (const Kept& part : kept_) {
       const RigidTransform pose = (motion * part.start).normalized();
       const RigidTransform on = part.joints.nearestPose(pose, part.centre);
-      if (isSamePose(on, pose)) continue;
+      if (on == pose) continue;
       isKept = false;
       motion = (on * part.start.inverse()).normalized();
     }

@@ -24,10 +24,6 @@ constexpr int kPatience = 40;
 /// Ticks between two checks for cancellation.
 constexpr int kTicksAtOnce = 50;
 
-bool isSame(const RigidTransform& a, const RigidTransform& b) {
-  return a.rotation == b.rotation && a.translation == b.translation;
-}
-
 bool turns(const RigidTransform& motion) {
   return motion.rotation.x != 0.0 || motion.rotation.y != 0.0 || motion.rotation.z != 0.0;
 }
@@ -119,34 +115,34 @@ SolidMove::Progress SolidMove::advance(const RigidTransform& motion, int ticks) 
   const RigidTransform target = onJoints(motion * start_, turnScale);
   if (scene_->moving.geometry == nullptr) pose_ = target;
   if (marginAtEnd_ == 0.0) findStartDistance();
-  if (!isSame(motion, wanted_)) keepMargin(margin_);
+  if (motion != wanted_) keepMargin(margin_);
   wanted_ = motion;
   settle(target, turnScale, ticks);
   updatePoses();
-  if (isSame(pose_, target) && scene_->joints.isEmpty()) {
+  if (pose_ == target && scene_->joints.isEmpty()) {
     // Exactly at the target, for several parts too.
     for (std::size_t i = 0; i < poses_.size(); ++i)
       poses_[i] = motion * startPoses_[i];
   }
-  return {isSettled_, isSame(pose_, target)};
+  return {isSettled_, pose_ == target};
 }
 
 void SolidMove::settle(const RigidTransform& target, double turnScale, int ticks) {
-  isSettled_ = isSame(pose_, target);
+  isSettled_ = pose_ == target;
   for (int i = 0; i < ticks && !isSettled_; ++i) {
     const RigidTransform before = pose_;
     const bool isWaiting = tick(target, turnScale);
     const bool isStill = travelBetween(*scene_, before, pose_) < kStill * settings_.margin;
     waited_ = isWaiting && isStill ? waited_ + 1 : 0;
     still_ = isStill && !isWaiting ? still_ + 1 : 0;
-    isSettled_ = isSame(pose_, target) || still_ >= kStillTicks || waited_ >= kPatience;
+    isSettled_ = pose_ == target || still_ >= kStillTicks || waited_ >= kPatience;
     // They have gone as far as the margin allows; the final margin allows a little more.
-    if (isSettled_ && !isSame(pose_, target) && settings_.margin > marginAtEnd_) keepMargin(marginAtEnd_);
+    if (isSettled_ && pose_ != target && settings_.margin > marginAtEnd_) keepMargin(marginAtEnd_);
   }
   // Resting parts end a hundredth nearer than they began. Without this, repeated pushes would
   // make them creep.
   const double gone = travelBetween(*scene_, start_, pose_);
-  isHeld_ = isSettled_ && !isSame(pose_, target) && gone < kNoMove * marginAtEnd_ &&
+  isHeld_ = isSettled_ && pose_ != target && gone < kNoMove * marginAtEnd_ &&
             gone < 0.5 * travelBetween(*scene_, start_, target);
 }
 
@@ -177,16 +173,16 @@ bool SolidMove::tick(const RigidTransform& target, double turnScale) {
 }
 
 void SolidMove::updatePoses() {
-  if (isSame(reached(), start_)) {
+  if (reached() == start_) {
     poses_ = startPoses_;
     return;
   }
   for (std::size_t i = 0; i < poses_.size(); ++i)
-    poses_[i] = isSame(startPoses_[i], start_) ? pose_ : (pose_ * bodyFromPart_[i]).normalized();
+    poses_[i] = startPoses_[i] == start_ ? pose_ : (pose_ * bodyFromPart_[i]).normalized();
 }
 
 RigidTransform SolidMove::motion() const noexcept {
-  return isSame(reached(), start_) ? RigidTransform{} : (pose_ * start_.inverse()).normalized();
+  return reached() == start_ ? RigidTransform{} : (pose_ * start_.inverse()).normalized();
 }
 
 std::vector<PartId> SolidMove::idsOf(const std::vector<std::uint32_t>& bodies) const {

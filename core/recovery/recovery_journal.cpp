@@ -18,7 +18,7 @@ namespace nearfit {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using JournalJson = nlohmann::ordered_json;
 
 /// Makes the mesh paths of a scene file absolute, so that the scene can be moved.
 /// @tparam AnyJson  With keys in order or sorted.
@@ -31,9 +31,9 @@ void makePathsAbsolute(AnyJson& scene, const fs::path& folder) {
 }
 
 /// Reads JSON, keeping the order of keys. Throws FileError, nlohmann::json::exception.
-Json readOrdered(const fs::path& file) {
+JournalJson readOrdered(const fs::path& file) {
   const std::vector<char> bytes = readWholeFile(file, {});
-  return Json::parse(bytes.begin(), bytes.end());
+  return JournalJson::parse(bytes.begin(), bytes.end());
 }
 
 [[noreturn]] void failDamaged(const fs::path& journal) {
@@ -56,7 +56,7 @@ auto guarded(const fs::path& journal, Work work) {
 std::string journalText(const Scene& scene, const JournalHead& head) {
   // Any folder will do: paths are made absolute below.
   const fs::path place = "/journal.nearfit";
-  Json json = Json::parse(sceneFileText(scene, place));
+  JournalJson json = JournalJson::parse(sceneFileText(scene, place));
   makePathsAbsolute(json, meshFolder(place));
   // The process that restores it may have another working directory.
   const std::string path = head.scene.empty() ? std::string() : normalisedPath(head.scene).string();
@@ -65,15 +65,16 @@ std::string journalText(const Scene& scene, const JournalHead& head) {
                     "save it under another path");
   }
   const std::string sha256 = sha256OfBytes(prettyJson(json));
-  json["recovery"] = {
-      {"scene", path.empty() ? Json() : Json(path)}, {"changes", head.changes}, {"sha256", sha256}};
+  json["recovery"] = {{"scene", path.empty() ? JournalJson() : JournalJson(path)},
+                      {"changes", head.changes},
+                      {"sha256", sha256}};
   return prettyJson(json);
 }
 
 JournalHead readJournalHead(const fs::path& journal) {
   return guarded(journal, [&] {
-    Json json = readOrdered(journal);
-    const Json recovery = json.at("recovery");
+    JournalJson json = readOrdered(journal);
+    const JournalJson recovery = json.at("recovery");
     json.erase("recovery");
     if (sha256OfBytes(prettyJson(json)) != recovery.at("sha256").get<std::string>()) failDamaged(journal);
     JournalHead head;

@@ -318,8 +318,7 @@ MovingPoses movedPoses(const Scene& scene, const RigidTransform& worldFromMoving
   MovingPoses poses;
   if (!scene.movingPart()) return poses;
   const RigidTransform& was = scene.get(*scene.movingPart()).worldFromPart;
-  const bool isThere =
-      was.rotation == worldFromMoving.rotation && was.translation == worldFromMoving.translation;
+  const bool isThere = was == worldFromMoving;
   const RigidTransform motion = worldFromMoving * was.inverse();
   for (const PartId id : scene.movingParts()) {
     const RigidTransform& own = scene.get(id).worldFromPart;

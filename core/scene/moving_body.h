@@ -46,8 +46,7 @@ class GroupBodies {
     PartGeometryPtr geometry;
     RigidTransform bodyFromPart;
     bool operator==(const Piece& other) const noexcept {
-      return geometry == other.geometry && bodyFromPart.rotation == other.bodyFromPart.rotation &&
-             bodyFromPart.translation == other.bodyFromPart.translation;
+      return geometry == other.geometry && bodyFromPart == other.bodyFromPart;
     }
   };
 

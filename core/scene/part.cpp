@@ -10,10 +10,8 @@
 namespace nearfit {
 
 bool differsOnlyInLookOrLock(const Part& a, const Part& b) noexcept {
-  return a.id == b.id && a.name == b.name && a.geometry == b.geometry &&
-         a.worldFromPart.rotation == b.worldFromPart.rotation &&
-         a.worldFromPart.translation == b.worldFromPart.translation && a.density == b.density &&
-         a.pivot == b.pivot && a.group == b.group;
+  return a.id == b.id && a.name == b.name && a.geometry == b.geometry && a.worldFromPart == b.worldFromPart &&
+         a.density == b.density && a.pivot == b.pivot && a.group == b.group;
 }
 
 bool isSame(const Part& a, const Part& b) noexcept {

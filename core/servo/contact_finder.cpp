@@ -658,9 +658,8 @@ Surroundings ContactFinder::look(const TrackedScene& tracked, const RigidTransfo
                                  const Step* step) noexcept {
   const ServoScene& scene = *tracked.scene;
   const glm::dvec3 centre = worldFromPart.applyToPoint(scene.centreInPart);
-  const bool isSame = look_.isPending && isHoldingPairs_ && reach == look_.reach &&
-                      worldFromPart.translation == look_.pose.translation &&
-                      worldFromPart.rotation == look_.pose.rotation;
+  const bool isSame =
+      look_.isPending && isHoldingPairs_ && reach == look_.reach && worldFromPart == look_.pose;
   const Surroundings pending{.isPending = true};
   if (!isSame) {
     giveUpLook();

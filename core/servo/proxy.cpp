@@ -259,8 +259,7 @@ bool Proxy::goOn(const Tick& tick) noexcept {
 
 bool Proxy::isResting(const Tick& tick) const noexcept {
   return rest_.isAtRest && isHereKnown_ && here_.completeTo > 0.0 && tick.settings == rest_.settings &&
-         turnScale_ == rest_.turnScale && tick.target.translation == rest_.target.translation &&
-         tick.target.rotation == rest_.target.rotation;
+         turnScale_ == rest_.turnScale && tick.target == rest_.target;
 }
 
 /// The margin that is kept. It is smaller where so many pairs are near that a tick cannot look as far as it

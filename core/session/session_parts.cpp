@@ -96,7 +96,7 @@ void Session::moveParts(const std::vector<PartId>& ids, PartId lead, const Rigid
   const Part& before = scene().get(lead);
   const RigidTransform from = before.worldFromPart;
   const RigidTransform to = checkedPose(worldFromLead);
-  if (from.rotation == to.rotation && from.translation == to.translation) {
+  if (from == to) {
     // Nothing moves, but locked parts must still be refused.
     return changeUnlocked(ids, verb.c_str(), [](Part&) {});
   }

@@ -5,19 +5,11 @@
 #include "tests/exact/pose_certifier.h"
 
 namespace nearfit::bench {
-namespace {
-
-bool isSame(const RigidTransform& a, const RigidTransform& b) {
-  return a.translation == b.translation && a.rotation == b.rotation;
-}
-
-}  // namespace
-
 FeelRow certifiedRow(const std::string& group, const std::string& scene, const std::string& run,
                      const ServoScene& bodies, std::span<const RigidTransform> worldFromPart) {
   std::vector<RigidTransform> distinct;
   for (const RigidTransform& pose : worldFromPart) {
-    if (distinct.empty() || !isSame(pose, distinct.back())) distinct.push_back(pose);
+    if (distinct.empty() || pose != distinct.back()) distinct.push_back(pose);
   }
   std::vector<double> meets(distinct.size(), 0.0);
   for (const ServoScene::Body& body : bodies.bodies) {

@@ -165,8 +165,7 @@ RestResult restOf(const RestScene& scene, std::uint32_t fineness) {
     walk.lead(scene.hand);
     result.poses.push_back(walk.pose());
     ++result.ticks;
-    const bool isSame =
-        before.translation == walk.pose().translation && before.rotation == walk.pose().rotation;
+    const bool isSame = before == walk.pose();
     still = isSame ? still + 1 : 0;
   }
   result.isResting = still == kStillTicks;

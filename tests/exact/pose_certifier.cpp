@@ -227,7 +227,7 @@ class PoseCertifier::Follower {
       : certifier_(certifier), way_(way) {}
 
   bool doMeet(std::size_t i) {
-    if (i > 0 && isSame(way_[i], way_[i - 1])) return last_;
+    if (i > 0 && way_[i] == way_[i - 1]) return last_;
     // On the straight way of each vertex to where it is now no point of the surface comes as far as to the
     // other: neither do they meet now, nor has one come into the other.
     if (isApart_ && motion(anchor_, i) < apart_) return last_ = false;
@@ -247,9 +247,6 @@ class PoseCertifier::Follower {
  private:
   static constexpr std::size_t kAhead = 32, kPatience = 8;
 
-  static bool isSame(const RigidTransform& a, const RigidTransform& b) {
-    return a.translation == b.translation && a.rotation == b.rotation;
-  }
   double motion(std::size_t from, std::size_t to) const {
     return certifier_.bodies_->motion(way_[from], way_[to]);
   }

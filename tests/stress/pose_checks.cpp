@@ -1,21 +1,13 @@
 #include "tests/stress/pose_checks.h"
 
 namespace nearfit::stress {
-namespace {
-
-bool isEqual(const RigidTransform& a, const RigidTransform& b) {
-  return a.translation == b.translation && a.rotation == b.rotation;
-}
-
-}  // namespace
-
 PoseChecks::PoseChecks(const StressScene& scene) : scene_(scene) {
   for (const ServoScene::Body& body : scene.scene->bodies)
     certifiers_.emplace_back(body.geometry->mesh, scene.scene->moving.geometry->mesh);
 }
 
 void PoseChecks::add(const RigidTransform& worldFromPart, std::uint64_t tick) {
-  if (last_ && isEqual(*last_, worldFromPart)) return;
+  if (last_ && *last_ == worldFromPart) return;
   last_ = worldFromPart;
   ++certified_;
   if (!isBad(worldFromPart)) return;

@@ -68,7 +68,7 @@ class SpaceMouseOverUsb : public testing::Test {
     const RigidTransform before = pose();
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
     const RigidTransform after = pose();
-    return before.translation == after.translation && before.rotation == after.rotation;
+    return before == after;
   }
 
   test::EmulatedBus bus;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr MarkActors::Look kPairLook{.lineWidth = 3.5F, .pointSize = 8.0F};
 /// Length and radius of the arrow's head, as shares of the arrow.
-constexpr double kHeadLength = 0.25, kHeadRadius = 0.08;
+constexpr double kArrowLength = 0.25, kArrowRadius = 0.08;
 constexpr int kHeadSides = 12;
 
 const std::vector<std::vector<glm::dvec3>>& curvesOf(const PairFinding& finding) {
@@ -37,10 +37,10 @@ void addHead(const FreeingArrow& arrow, MarkCells& faces) {
   const double length = glm::length(way);
   if (!(length > 0.0)) return;
   const auto [first, second] = axesAcross(way / length);
-  const glm::dvec3 base = arrow.to - kHeadLength * way;
+  const glm::dvec3 base = arrow.to - kArrowLength * way;
   const auto rim = [&, u = first, v = second](int side) {
     const double angle = 2.0 * std::numbers::pi * side / kHeadSides;
-    return base + kHeadRadius * length * (std::cos(angle) * u + std::sin(angle) * v);
+    return base + kArrowRadius * length * (std::cos(angle) * u + std::sin(angle) * v);
   };
   for (int side = 0; side < kHeadSides; ++side) {
     faces.add({arrow.to, rim(side), rim(side + 1)});

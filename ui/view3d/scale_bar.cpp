@@ -16,7 +16,7 @@ namespace nearfit::ui {
 namespace {
 
 /// Distances [pixels]: from the view's edges, from other overlays, and inside the frame.
-constexpr int kMargin = 14, kGap = 8, kInset = 9;
+constexpr int kEdgeMargin = 14, kGap = 8, kTextInset = 9;
 /// Height of the bar's end marks, and their distance from the label [pixels].
 constexpr int kMarks = 6, kBelowText = 3;
 /// Max width of the bar, in heights of a letter.
@@ -72,8 +72,8 @@ void ScaleBar::place() {
   setVisible(isShown);
   if (!isShown) return;
   const QWidget& view = *parentWidget();
-  QRect at(0, 0, room() + 2 * kInset, fontMetrics().height() + kBelowText + kMarks + 2 * kInset);
-  at.moveBottomRight(view.rect().bottomRight() - QPoint(kMargin, kMargin));
+  QRect at(0, 0, room() + 2 * kTextInset, fontMetrics().height() + kBelowText + kMarks + 2 * kTextInset);
+  at.moveBottomRight(view.rect().bottomRight() - QPoint(kEdgeMargin, kEdgeMargin));
   const QList<QWidget*> overlays = view.findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
   const auto isInTheWay = [&at](const QWidget* overlay) {
     return !overlay->isHidden() && qobject_cast<const ColourLegend*>(overlay) != nullptr &&
@@ -90,7 +90,7 @@ void ScaleBar::paintEvent(QPaintEvent*) {
   const QString label = text();
   const int letters = fontMetrics().horizontalAdvance(label);
   const double bar = pixels(), inside = std::max<double>(bar, letters);
-  const QRectF frame = QRectF(width() - inside - 2 * kInset, 0, inside + 2 * kInset, height());
+  const QRectF frame = QRectF(width() - inside - 2 * kTextInset, 0, inside + 2 * kTextInset, height());
   const bool isDark = isThemeDark();
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
@@ -99,9 +99,9 @@ void ScaleBar::paintEvent(QPaintEvent*) {
   painter.drawRoundedRect(frame.adjusted(0.5, 0.5, -0.5, -0.5), 7.0, 7.0);
   const QColor ink = themed(QColor(0x1c, 0x25, 0x2e));
   painter.setPen(ink);
-  painter.drawText(QRectF(frame.left(), kInset, frame.width(), fontMetrics().height()), Qt::AlignCenter,
+  painter.drawText(QRectF(frame.left(), kTextInset, frame.width(), fontMetrics().height()), Qt::AlignCenter,
                    label);
-  const double middle = frame.center().x(), base = height() - kInset;
+  const double middle = frame.center().x(), base = height() - kTextInset;
   const QPointF left(middle - 0.5 * bar, base), right(middle + 0.5 * bar, base), up(0.0, -kMarks);
   painter.setPen(QPen(ink, 2.0, Qt::SolidLine, Qt::FlatCap, Qt::MiterJoin));
   painter.drawPolyline(QPolygonF({left + up, left, right, right + up}));

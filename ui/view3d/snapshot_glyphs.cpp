@@ -10,13 +10,9 @@ namespace nearfit::ui {
 namespace {
 
 /// Opacity of glyphs that are past, against that of present ones: seen through, and still told apart by colour.
-constexpr double kPastOpacity = 0.4;
+constexpr double kTrailOpacity = 0.4;
 /// Width of the view, over that of the legend, below which the legend would cover what is felt; the panel has its numbers.
 constexpr double kLeastRoom = 1.5;
-
-bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
-  return a.rotation == b.rotation && a.translation == b.translation;
-}
 
 }  // namespace
 
@@ -46,7 +42,7 @@ void SnapshotGlyphs::showNumbers(const ServoSnapshot& snapshot) {
 }
 
 void SnapshotGlyphs::setPast(bool isPast) {
-  const double share = isPast ? kPastOpacity : 1.0;
+  const double share = isPast ? kTrailOpacity : 1.0;
   minima_.setOpacity(share);
   arrows_.setOpacity(share);
   contacts_.setOpacity(share);
@@ -75,8 +71,8 @@ void SnapshotGlyphs::setLegendVisible(bool isVisible) {
 }
 
 bool looksTheSame(const ServoSnapshot& a, const ServoSnapshot& b) {
-  if (a.moving != b.moving || !isSamePose(a.proxy, b.proxy) || a.storedLmds != b.storedLmds) return false;
-  if (!isSamePose(a.handle, b.handle) || a.mode != b.mode || a.contactCount != b.contactCount) return false;
+  if (a.moving != b.moving || a.proxy != b.proxy || a.storedLmds != b.storedLmds) return false;
+  if (a.handle != b.handle || a.mode != b.mode || a.contactCount != b.contactCount) return false;
   if (a.storedContacts != b.storedContacts || a.overlappingCount != b.overlappingCount ||
       a.overlapping != b.overlapping)
     return false;

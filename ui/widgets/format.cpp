@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <QLocale>
+#include <QObject>
 #include <QStringList>
 #include <algorithm>
 #include <cmath>
@@ -93,6 +94,10 @@ QString formatDistance(double metres, bool isBound) {
 
 QString formatMinima(std::uint32_t count, bool isTruncated) {
   return QString::number(count) + (isTruncated ? QStringLiteral("+") : QString());
+}
+
+QString formatParts(std::size_t count) {
+  return count == 1 ? QObject::tr("1 part") : QObject::tr("%1 parts").arg(count);
 }
 
 QString formatForce(double newtons) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -28,6 +29,8 @@ QString formatExtent(const glm::dvec3& metres);
 QString formatDistance(double metres, bool isBound);
 /// Formats a number of minima, of which some may be missing: "12", "12+".
 QString formatMinima(std::uint32_t count, bool isTruncated);
+/// Formats a number of parts: "1 part", "12 parts".
+QString formatParts(std::size_t count);
 /// Formats a force [N]: "3.42 N".
 QString formatForce(double newtons);
 /// Formats a torque [N m]: "12.3 mN·m", "1.20 N·m".

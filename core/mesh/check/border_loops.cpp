@@ -10,7 +10,7 @@
 namespace nearfit {
 namespace {
 
-constexpr std::uint32_t kNoSide = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoBorderSide = std::numeric_limits<std::uint32_t>::max();
 
 /// An open edge as its triangle runs along it.
 struct BorderSide {
@@ -37,7 +37,7 @@ class LoopTracer {
     std::vector<bool> isUsed(sides_.size(), false);
     const auto follow = [&](std::uint32_t start) {
       std::vector<std::uint32_t> chain;
-      for (std::uint32_t side = start; side != kNoSide && !isUsed[side]; side = next_[side]) {
+      for (std::uint32_t side = start; side != kNoBorderSide && !isUsed[side]; side = next_[side]) {
         isUsed[side] = true;
         chain.push_back(side);
       }
@@ -56,11 +56,11 @@ class LoopTracer {
  private:
   /// Gives each side the one after it, and no side to two.
   void linkSides() {
-    next_.assign(sides_.size(), kNoSide);
+    next_.assign(sides_.size(), kNoBorderSide);
     hasBefore_.assign(sides_.size(), false);
     for (std::uint32_t side = 0; side < sides_.size(); ++side) {
       const std::uint32_t after = sideAfter(side);
-      if (after == kNoSide || hasBefore_[after]) continue;
+      if (after == kNoBorderSide || hasBefore_[after]) continue;
       next_[side] = after;
       hasBefore_[after] = true;
     }
@@ -70,7 +70,7 @@ class LoopTracer {
       if (!hasBefore_[side]) freeAt[sides_[side].from].push_back(side);
     }
     for (std::uint32_t side = 0; side < sides_.size(); ++side) {
-      if (next_[side] != kNoSide) continue;
+      if (next_[side] != kNoBorderSide) continue;
       const auto found = freeAt.find(sides_[side].to);
       if (found == freeAt.end() || found->second.empty()) continue;
       next_[side] = found->second.back();
@@ -87,14 +87,14 @@ class LoopTracer {
     for (std::size_t left = mesh_.edgesOfVertex(pivot).size(); left > 0; --left) {
       const Triangle& t = mesh_.triangles()[triangle];
       const auto k = static_cast<std::uint32_t>(std::ranges::find(t, pivot) - t.begin());
-      if (k == 3) return kNoSide;
+      if (k == 3) return kNoBorderSide;
       const std::uint32_t edge = mesh_.edgesOfTriangle(triangle)[k];
       const auto faces = mesh_.facesOfEdge(edge);
       if (faces.size() == 1) return sideOfEdge_.at(edge);
-      if (!mesh_.isEdgeConsistent(edge)) return kNoSide;
+      if (!mesh_.isEdgeConsistent(edge)) return kNoBorderSide;
       triangle = faces[0] == triangle ? faces[1] : faces[0];
     }
-    return kNoSide;
+    return kNoBorderSide;
   }
 
   /// Cuts a way into loops that pass each vertex once, and what is left.

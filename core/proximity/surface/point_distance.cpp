@@ -13,7 +13,7 @@
 namespace nearfit {
 namespace {
 
-constexpr std::size_t kWidth = NormalConeTree::kWidth;
+constexpr std::size_t kLanes = NormalConeTree::kWidth;
 
 /// Rounding of the distance to a box in single precision, as a fraction of the lengths involved: some ten roundings.
 constexpr float kBoxPadding = 1e-6F;
@@ -27,18 +27,18 @@ struct Waiting {
 };
 
 /// Each node opened leaves at most all its children but one waiting, and the way down is no longer than kMaxDepth.
-constexpr std::size_t kMaxWaiting = kWidth * (NormalConeTree::kMaxDepth + 1);
+constexpr std::size_t kMaxWaiting = kLanes * (NormalConeTree::kMaxDepth + 1);
 
 /// Squared lower bounds on the distances to the boxes of a node [m^2].
 /// @param point  In the hierarchy's centred frame [m].
-std::array<float, kWidth> boundsTo(const NormalConeTree::Node& node, const std::array<float, 3>& point,
+std::array<float, kLanes> boundsTo(const NormalConeTree::Node& node, const std::array<float, 3>& point,
                                    float padding) noexcept {
-  std::array<float, kWidth> squared;
+  std::array<float, kLanes> squared;
   const auto beyond = [padding](float along, float half) {
     const float gap = std::abs(along) - half - padding;
     return gap > 0.0F ? gap * gap : 0.0F;
   };
-  for (std::size_t i = 0; i < kWidth; ++i) {
+  for (std::size_t i = 0; i < kLanes; ++i) {
     const float dx = point[0] - node.centre[0][i], dy = point[1] - node.centre[1][i],
                 dz = point[2] - node.centre[2][i];
     const float nx = node.n[0][i], ny = node.n[1][i], nz = node.n[2][i];
@@ -122,9 +122,9 @@ class PointSearch {
   /// Lets the children of a node wait, the nearest on top.
   void open(std::uint32_t index) noexcept {
     const NormalConeTree::Node& node = tree_.nodes()[index];
-    const std::array<float, kWidth> squared = boundsTo(node, single_, padding_);
+    const std::array<float, kLanes> squared = boundsTo(node, single_, padding_);
     const std::size_t first = count_;
-    for (std::size_t i = 0; i < kWidth; ++i) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
       const std::uint32_t child = node.child[i];
       if (child == NormalConeTree::kNoChild || isNoFace(child) || !isWithin(squared[i])) continue;
       std::size_t at = count_++;

@@ -261,7 +261,7 @@ std::optional<LmdResult> CandidateList::query(const RigidTransform& sceneFromPar
 CandidateList::Way CandidateList::wayBetween(const RigidTransform& from,
                                              const RigidTransform& to) const noexcept {
   const RigidTransform a = centredPose(*scene_, *part_, from), b = centredPose(*scene_, *part_, to);
-  const bool isOfOnePose = a.translation == b.translation && a.rotation == b.rotation;
+  const bool isOfOnePose = a == b;
   if (isOfOnePose) return {a, {}, true};
   const glm::dvec3 spin = 0.5 * rotationVector(b.rotation * glm::conjugate(a.rotation));
   return {{glm::normalize(rotationOf(spin) * a.rotation), 0.5 * (a.translation + b.translation)},

@@ -35,10 +35,6 @@ constexpr std::array<ExportUnit, 4> kUnits = {{{QT_TRANSLATE_NOOP("Unit", "Milli
                                                {QT_TRANSLATE_NOOP("Unit", "Metres"), "m", 1.0},
                                                {QT_TRANSLATE_NOOP("Unit", "Inches"), "in", 0.0254}}};
 
-QString partsText(std::size_t count) {
-  return count == 1 ? QObject::tr("1 part") : QObject::tr("%1 parts").arg(count);
-}
-
 QString sizeText(std::uint64_t bytes) {
   return QLocale().formattedDataSize(static_cast<qint64>(bytes), 1, QLocale::DataSizeSIFormat);
 }
@@ -179,7 +175,7 @@ QString ExportDialog::meshSummary(MeshFileKind kind) const {
   const QString unit = QLatin1String(kUnits[static_cast<std::size_t>(unit_->currentIndex())].sign);
   const QString text =
       tr("%1 as one mesh in the world frame, in %2: %3 triangles, about %4.")
-          .arg(partsText(size.parts), unit, locale.toString(static_cast<qulonglong>(size.triangles)),
+          .arg(formatParts(size.parts), unit, locale.toString(static_cast<qulonglong>(size.triangles)),
                sizeText(size.bytes));
   switch (kind) {
     case MeshFileKind::StlBinary:
@@ -197,7 +193,7 @@ QString ExportDialog::assemblySummary(ExportKind kind) const {
   if (parts.empty()) return tr("Nothing: no part is visible.");
   const QString text =
       tr("%1 with their groups, names, colours and poses. Parts with the same mesh share it.")
-          .arg(partsText(parts.size())) +
+          .arg(formatParts(parts.size())) +
       QChar(' ');
   switch (kind) {
     case ExportKind::AssemblyStep:
@@ -239,7 +235,7 @@ QString ExportDialog::mapSummary() const {
 }
 
 QString ExportDialog::placementSummary() const {
-  const QString parts = partsText(scene_.parts().size());
+  const QString parts = formatParts(scene_.parts().size());
   if (choice().kind == ExportKind::PlacementCsv)
     return tr("A table of %1: name, mesh file and SHA-256, position [m], quaternion (w x y z) and the 4x4 "
               "matrix "

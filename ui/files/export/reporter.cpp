@@ -25,10 +25,6 @@
 namespace nearfit::ui {
 namespace {
 
-bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
-  return a.rotation == b.rotation && a.translation == b.translation;
-}
-
 /// Input of a report, for another thread.
 struct ReportWork {
   Scene scene;
@@ -89,13 +85,12 @@ Scene Reporter::presentScene() const {
   if (!scene.movingPart()) return scene;
   const RigidTransform pose = poseOfMoving_();
   // A pose that is normalised again may differ in its last bit, which a certificate would notice.
-  return isSamePose(pose, scene.get(*scene.movingPart()).worldFromPart) ? scene : placedScene(scene, pose);
+  return pose == scene.get(*scene.movingPart()).worldFromPart ? scene : placedScene(scene, pose);
 }
 
 bool Reporter::isAsSaved() const {
   const Scene& scene = session_.scene();
-  const bool isMoved =
-      scene.movingPart() && !isSamePose(poseOfMoving_(), scene.get(*scene.movingPart()).worldFromPart);
+  const bool isMoved = scene.movingPart() && poseOfMoving_() != scene.get(*scene.movingPart()).worldFromPart;
   return !session_.file().empty() && !session_.isModified() && !isMoved;
 }
 

@@ -6,10 +6,6 @@
 namespace nearfit::ui {
 namespace {
 
-bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
-  return a.rotation == b.rotation && a.translation == b.translation;
-}
-
 QString causeOf(const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
@@ -54,7 +50,7 @@ void Autosave::writeNow() {
 
 bool Autosave::isSame(const Content& a, const Content& b) {
   if (a.serial != b.serial || a.file != b.file || a.pose.has_value() != b.pose.has_value()) return false;
-  return !a.pose || (a.pose->first == b.pose->first && isSamePose(a.pose->second, b.pose->second));
+  return !a.pose || (a.pose->first == b.pose->first && a.pose->second == b.pose->second);
 }
 
 void Autosave::write() {
@@ -65,7 +61,7 @@ void Autosave::write() {
   }
   Content content{session_.stateSerial(), session_.file(), poseInHand_()};
   const Part* held = content.pose ? session_.scene().find(content.pose->first) : nullptr;
-  if (held == nullptr || isSamePose(held->worldFromPart, content.pose->second)) content.pose.reset();
+  if (held == nullptr || held->worldFromPart == content.pose->second) content.pose.reset();
   const std::size_t changes = session_.changesSinceSave() + (content.pose ? 1 : 0);
   if (changes == 0) {
     if (content_) run([folder = folder_](const ProgressCallback&) { folder->clear(); }, std::nullopt);

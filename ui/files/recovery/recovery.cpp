@@ -16,6 +16,7 @@
 #include "ui/files/document.h"
 #include "ui/model/hand_state.h"
 #include "ui/widgets/font_scale.h"
+#include "ui/widgets/format.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/paths.h"
 
@@ -40,10 +41,6 @@ QString nameOf(const LostWork& work) {
 QString changesText(std::size_t count) {
   return count == 1 ? QObject::tr("1 unsaved change")
                     : QObject::tr("%n unsaved changes", nullptr, static_cast<int>(count));
-}
-
-QString partsText(std::size_t count) {
-  return count == 1 ? QObject::tr("1 part") : QObject::tr("%n parts", nullptr, static_cast<int>(count));
 }
 
 QLabel* plainLabel(const QString& text, QWidget* parent) {
@@ -106,7 +103,7 @@ void RecoveryDialog::addRow(const LostWork& work, int number) {
   if (!work.head.scene.empty()) layout->addWidget(plainLabel(fromPath(work.head.scene), row));
   layout->addWidget(
       plainLabel(tr("Last change %1, %2, %3")
-                     .arg(timeText(work.time), changesText(work.head.changes), partsText(work.head.parts)),
+                     .arg(timeText(work.time), changesText(work.head.changes), formatParts(work.head.parts)),
                  row));
   auto* buttons = new QDialogButtonBox(row);
   const auto addButton = [&](const QString& text, const char* objectName, QDialogButtonBox::ButtonRole role) {

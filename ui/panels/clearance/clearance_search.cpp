@@ -11,10 +11,6 @@ namespace {
 /// Shortest time between the starts of two searches, which leaves processors for a drag or the servo.
 constexpr int kEveryMs = 250;
 
-bool areAtOnePose(const RigidTransform& a, const RigidTransform& b) {
-  return a.translation == b.translation && a.rotation == b.rotation;
-}
-
 }  // namespace
 
 ClearanceSearch::ClearanceSearch(Session& session, PoseOfMoving poseOfMoving, QObject* parent)
@@ -61,11 +57,11 @@ void ClearanceSearch::showSnapshot(const ServoSnapshot& snapshot) {
 
 void ClearanceSearch::followMoving() {
   const RigidTransform pose = poseOfMoving_();
-  if (!areAtOnePose(std::exchange(poseShown_, pose), pose)) request();
+  if (std::exchange(poseShown_, pose) != pose) request();
 }
 
 bool ClearanceSearch::isOfPresentPose() const {
-  return areAtOnePose(poseSearched_, poseOfMoving_());
+  return poseSearched_ == poseOfMoving_();
 }
 
 void ClearanceSearch::request() {

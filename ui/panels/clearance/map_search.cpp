@@ -112,8 +112,7 @@ ClearanceMapRequest ClearanceMapSearch::present() const {
 void ClearanceMapSearch::followParts() {
   // Names, colours and settings do not matter, nor does where a move is only proposed.
   const auto isSame = [](const MeasuredPart& a, const MeasuredPart& b) {
-    return a.id == b.id && a.geometry == b.geometry && a.worldFromPart.rotation == b.worldFromPart.rotation &&
-           a.worldFromPart.translation == b.worldFromPart.translation;
+    return a.id == b.id && a.geometry == b.geometry && a.worldFromPart == b.worldFromPart;
   };
   // Poses may be told of before a subject that has left or changed is.
   if (!isWanted_ || subject_.empty() || subject_ != subject()) return;

@@ -199,8 +199,7 @@ void PosePanel::showPart(const QString& name, const QString& refusal, const QStr
 }
 
 void PosePanel::showPose(const RigidTransform& worldFromPart) {
-  const bool isSame =
-      worldFromPart.rotation == pose_.rotation && worldFromPart.translation == pose_.translation;
+  const bool isSame = worldFromPart == pose_;
   for (NumberField* field : fields_)
     if (!isSame && !isEditing_ && field->isFaulty()) field->takeBack();
   showPose(worldFromPart, worldFromPart);

@@ -28,7 +28,7 @@ namespace nearfit::ui {
 namespace {
 
 /// One step for each picture of a 60 Hz display.
-constexpr int kEveryMs = 16;
+constexpr int kFrameMs = 16;
 /// Rows that play a path: as many pictures a second, but no more than are measured and drawn at once.
 constexpr double kPathStep = 1.0 / 60.0;
 constexpr std::size_t kMaxPathRows = 4000;
@@ -71,7 +71,7 @@ Replay::Replay(const Context& context, Timeline& timeline, QWidget* window)
                        QStringLiteral("Shift+F8"))),
       shown_(std::make_unique<ServoSnapshot>()) {
   timer_.setTimerType(Qt::PreciseTimer);
-  timer_.setInterval(kEveryMs);
+  timer_.setInterval(kFrameMs);
   connect(&timer_, &QTimer::timeout, this, &Replay::goOn);
   open_->setToolTip(tr("Play a recorded motion or a path, with a timeline to go back and forth"));
   connect(open_, &QAction::triggered, this, &Replay::askAndOpen);

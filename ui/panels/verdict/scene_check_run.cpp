@@ -12,12 +12,8 @@ namespace {
 /// Time after which a motion makes a result old [ms].
 constexpr int kOldAfterMs = 250;
 
-bool isAt(const RigidTransform& a, const RigidTransform& b) {
-  return a.translation == b.translation && a.rotation == b.rotation;
-}
-
 bool isSamePart(const CheckedPart& a, const CheckedPart& b) {
-  return a.id == b.id && a.geometry == b.geometry && isAt(a.worldFromPart, b.worldFromPart);
+  return a.id == b.id && a.geometry == b.geometry && a.worldFromPart == b.worldFromPart;
 }
 
 /// True if rules may say something else of the part.
@@ -133,7 +129,7 @@ bool SceneCheckRun::isAsChecked(const PartPair& pair) const {
     const Part* part = context_.session.scene().find(id);
     const auto before = std::ranges::lower_bound(checked_->request.parts, id, {}, &CheckedPart::id);
     return part != nullptr && before != checked_->request.parts.end() && before->id == id &&
-           before->geometry == part->geometry && isAt(before->worldFromPart, context_.poses.poseOf(*part));
+           before->geometry == part->geometry && before->worldFromPart == context_.poses.poseOf(*part);
   };
   return isSameAs(pair.part) && isSameAs(pair.other);
 }

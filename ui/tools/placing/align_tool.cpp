@@ -137,9 +137,7 @@ bool AlignTool::isSound() const {
   if (fixed_ && session_.scene().find(fixed_->part) == nullptr) return false;
   return std::all_of(start_.begin(), start_.end(), [this](const auto& entry) {
     const Part* part = session_.scene().find(entry.first);
-    return part != nullptr && refusalToMove(*part).isEmpty() &&
-           part->worldFromPart.translation == entry.second.translation &&
-           part->worldFromPart.rotation == entry.second.rotation;
+    return part != nullptr && refusalToMove(*part).isEmpty() && part->worldFromPart == entry.second;
   });
 }
 

@@ -223,8 +223,7 @@ void DropTool::finish(Kind kind, const std::vector<PartId>& parts, const Scene& 
     return;
   }
   const Part *was = before.find(parts.back()), *is = session_.scene().find(parts.back());
-  const bool isSame = is != nullptr && is->worldFromPart.translation == was->worldFromPart.translation &&
-                      is->worldFromPart.rotation == was->worldFromPart.rotation;
+  const bool isSame = is != nullptr && is->worldFromPart == was->worldFromPart;
   if (!isSame) return;
   try {
     session_.moveParts(parts, parts.back(), outcome.worldFromLead, kind == Kind::Drop ? "Drop" : "Push");

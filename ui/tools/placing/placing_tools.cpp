@@ -101,8 +101,7 @@ bool PlacingTools::isMoveSound() const {
   return std::ranges::all_of(mover_.start(), [this](const auto& entry) {
     const auto& [id, pose] = entry;
     const Part* part = session_.scene().find(id);
-    return part != nullptr && isMovable(*part) && part->worldFromPart.translation == pose.translation &&
-           part->worldFromPart.rotation == pose.rotation;
+    return part != nullptr && isMovable(*part) && part->worldFromPart == pose;
   });
 }
 

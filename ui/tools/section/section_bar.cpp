@@ -18,7 +18,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr double kFarthest = 1e6;  ///< [m]
+constexpr double kFarthestPlane = 1e6;  ///< [m]
 constexpr int kSliderSteps = 1000, kSliderWidth = 150, kLetterWidth = 30;
 
 /// Makes the checked button stand out.
@@ -112,7 +112,7 @@ void SectionBar::setUpFields() {
   position_->setObjectName(QStringLiteral("sectionPosition"));
   position_->setAccessibleName(tr("Offset of the section"));
   position_->setLength(4);
-  position_->setQuantityRange(-kFarthest, kFarthest);
+  position_->setQuantityRange(-kFarthestPlane, kFarthestPlane);
   position_->setQuantityStep(1e-3);
   position_->setToolTip(
       tr("Offset of the plane: along an axis from the world's origin, otherwise from where it was placed"));

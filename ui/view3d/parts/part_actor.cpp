@@ -188,9 +188,7 @@ void PartActor::addPiece() {
 }
 
 bool PartActor::setPose(const RigidTransform& worldFromPart) {
-  if (worldFromPart_ && worldFromPart_->rotation == worldFromPart.rotation &&
-      worldFromPart_->translation == worldFromPart.translation)
-    return false;
+  if (worldFromPart_ && *worldFromPart_ == worldFromPart) return false;
   worldFromPart_ = worldFromPart;
   setMatrix(*pose_, worldFromPart);
   return true;
