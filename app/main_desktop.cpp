@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
   desktop::Application::configure();
   const QStringList files = fileNames(options.files);
   desktop::requireUnit(options, files);
+  desktop::requireTargets(options, files);
   desktop::requireOpenGl();
 
   desktop::Application application;

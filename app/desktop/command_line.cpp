@@ -1,10 +1,13 @@
 #include "app/desktop/command_line.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include <CLI/CLI.hpp>
 
+#include "app/desktop/hands.h"
 #include "core/base/error.h"
+#include "core/files/atomic_write.h"
 #include "core/scene/document_load.h"
 #include "core/scene/mesh_unit.h"
 #include "ui/files/dropped_files.h"
@@ -16,6 +19,10 @@ namespace {
 int failUsage(const char* problem) {
   std::fprintf(stderr, "nearfit: %s; see nearfit --help\n", problem);
   return kUsageExitCode;
+}
+
+bool isPng(const std::filesystem::path& file) {
+  return ui::fromPath(file.extension()).compare(QStringLiteral(".png"), Qt::CaseInsensitive) == 0;
 }
 
 }  // namespace
@@ -87,6 +94,33 @@ void requireUnit(const Options& options, const QStringList& files) {
     if (storesUnit(ui::toPath(file))) continue;
     throw UsageError("--unit", ui::toPath(file).string() + " stores no unit of length",
                      "give the one that its numbers are in, such as --unit mm");
+  }
+}
+
+void requireTargets(const Options& options, const QStringList& files) {
+  const std::filesystem::path picture = options.screenshot, record = options.record;
+  if (!picture.empty() && !isPng(picture)) {
+    throw UsageError("--screenshot", picture.string() + " does not end in .png",
+                     "give the name of a PNG file after it");
+  }
+  if (!picture.empty() && !record.empty() && isSameTarget(picture, record))
+    throw UsageError("--record", "it names the same file as --screenshot", "give two files");
+  std::vector<std::filesystem::path> inputs;
+  for (const QString& file : files)
+    inputs.push_back(ui::toPath(file));
+  if (options.device) {
+    const auto recording = recordingOf(QString::fromStdString(*options.device));
+    if (recording) inputs.push_back(*recording);
+  }
+  for (const std::filesystem::path& output : {picture, record}) {
+    if (output.empty()) continue;
+    for (const std::filesystem::path& input : inputs) {
+      if (isSameTarget(output, input)) {
+        throw UsageError(output.string(), "it is opened by this run, and would be overwritten",
+                         "name another file to write");
+      }
+    }
+    checkReplaceable(output);
   }
 }
 

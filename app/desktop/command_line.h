@@ -34,4 +34,9 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv);
 /// @param files  The options' files, decoded; files in folders among them count. Needs the QCoreApplication.
 void requireUnit(const Options& options, const QStringList& files);
 
+/// Throws UsageError if an output would replace an input or another output, or the picture's name is not that of one, and
+/// FileError if an output names what is not replaced: a folder, device, pipe or socket.
+/// @param files  As for requireUnit(); those in folders are not looked for.
+void requireTargets(const Options& options, const QStringList& files);
+
 }  // namespace nearfit::desktop

@@ -1,14 +1,21 @@
 #include "app/desktop/screenshot.h"
 
+#include <QBuffer>
+#include <QByteArray>
 #include <QCoreApplication>
 #include <QPixmap>
 #include <QTimer>
+#include <cstddef>
 #include <cstdio>
+#include <string_view>
 #include <utility>
 
+#include "core/base/error.h"
+#include "core/files/atomic_write.h"
 #include "ui/files/document.h"
 #include "ui/panels/feel/feel_control.h"
 #include "ui/view3d/viewport.h"
+#include "ui/widgets/paths.h"
 
 namespace nearfit::desktop {
 namespace {
@@ -70,9 +77,15 @@ void Screenshot::waitForMinima(const ServoSnapshot& snapshot) {
 void Screenshot::write() {
   if (std::exchange(isWriting_, true) || hasFailed_) return;
   application_.window().viewport().completePicture();
-  const QPixmap picture = application_.window().grab();
-  if (!picture.save(output_, "PNG")) {
-    fail(tr("%1: the picture could not be written; choose a folder that you can write to").arg(output_));
+  QByteArray bytes;
+  QBuffer buffer(&bytes);
+  buffer.open(QIODevice::WriteOnly);
+  application_.window().grab().save(&buffer, "PNG");
+  try {
+    atomicWrite(ui::toPath(output_),
+                std::string_view(bytes.constData(), static_cast<std::size_t>(bytes.size())));
+  } catch (const Error& error) {
+    fail(QString::fromStdString(error.what()));
     return;
   }
   QCoreApplication::exit(0);

@@ -492,15 +492,16 @@ double volumeBelow(const TopoDS_Face& face, const gp_Pnt& origin) {
 }
 
 /// Volume within a shell's faces, positive; 0 if it cannot be computed.
-double exactVolumeOf(const TopoDS_Shape& shell, const gp_Pnt& origin) {
+double exactVolumeOf(const TopoDS_Shape& shell, const gp_Pnt& origin, bool usesAllThreads) {
   const std::vector<TopoDS_Face> faces = facesOf(shell);
   std::vector<double> volumes(faces.size(), std::numeric_limits<double>::quiet_NaN());
-  OSD_Parallel::For(0, static_cast<int>(faces.size()), [&](int i) {
+  const auto measure = [&](int i) {
     try {
       volumes[static_cast<std::size_t>(i)] = volumeBelow(faces[static_cast<std::size_t>(i)], origin);
     } catch (const Standard_Failure&) {
     }
-  });
+  };
+  OSD_Parallel::For(0, static_cast<int>(faces.size()), measure, !usesAllThreads);
   double sum = 0.0;
   for (const double volume : volumes)
     sum += volume;
@@ -508,7 +509,7 @@ double exactVolumeOf(const TopoDS_Shape& shell, const gp_Pnt& origin) {
 }
 
 /// Volume of a body in OpenCASCADE's units; 0 if unknown.
-double exactVolumeOf(const Body& body) {
+double exactVolumeOf(const Body& body, bool usesAllThreads) {
   Bnd_Box box;
   BRepBndLib::Add(body.shells.front(), box, Standard_False);
   if (box.IsVoid() || box.IsOpen()) return 0.0;
@@ -516,7 +517,7 @@ double exactVolumeOf(const Body& body) {
   const gp_Pnt origin((box.CornerMin().XYZ() + box.CornerMax().XYZ()) / 2.0);
   double volume = 0.0;
   for (std::size_t i = 0; i < body.shells.size(); ++i) {
-    const double shell = exactVolumeOf(body.shells[i], origin);
+    const double shell = exactVolumeOf(body.shells[i], origin, usesAllThreads);
     if (shell == 0.0) return 0.0;
     volume += i == 0 ? shell : -shell;
   }
@@ -631,13 +632,14 @@ CadShape meshBody(const MeshRequest& request, const Message_ProgressRange& progr
     return shape;
   }
   shape.tessellation = {tessellation.chord * scale, tessellation.angle};
-  if (request.isSolid) shape.exactVolume = exactVolumeOf(request.body) * scale * scale * scale;
+  if (request.isSolid)
+    shape.exactVolume = exactVolumeOf(request.body, request.usesAllThreads) * scale * scale * scale;
   // Triangles that came with the file would be taken for fine enough.
   BRepTools::Clean(all);
   IMeshTools_Parameters parameters;
   parameters.Deflection = tessellation.chord;
   parameters.Angle = tessellation.angle;
-  parameters.InParallel = Standard_True;
+  parameters.InParallel = request.usesAllThreads;
   BRepMesh_IncrementalMesh mesher;
   mesher.SetShape(all);
   mesher.ChangeParameters() = parameters;

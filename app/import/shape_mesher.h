@@ -26,12 +26,15 @@ struct MeshRequest {
   bool hasUnit = true;  ///< False: the limits of the default tessellation, which are in metres, do not apply.
   Tessellation wanted;  ///< In the units of the shape.
   const ColourTable* colours = nullptr;
+  bool usesAllThreads = true;  ///< False: the calling one alone, beside others that mesh.
 };
 
 /// Triangles of exact surfaces, with their faces. Without triangles if none of them can be meshed.
 ///
 /// Faces share the points on their common edges: these are joined by the edge, not by their distance, so that the
 /// triangles of a sound solid are closed however coarse they are. What stays open is told in the warnings.
+///
+/// Writes into the faces and edges of the body meanwhile: thread-safe for bodies that share neither; see planMeshing().
 CadShape meshBody(const MeshRequest& request, const Message_ProgressRange& progress);
 
 /// Triangles of a shape that has nothing else, as files of triangles give.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <map>
 #include <optional>
@@ -18,6 +19,8 @@
 #include <Bnd_Box.hxx>
 #include <Message_ProgressRange.hxx>
 #include <Message_ProgressScope.hxx>
+#include <OSD_Parallel.hxx>
+#include <OSD_ThreadPool.hxx>
 #include <Quantity_Color.hxx>
 #include <Quantity_ColorRGBA.hxx>
 #include <Standard_Failure.hxx>
@@ -42,6 +45,7 @@
 #include <fmt/format.h>
 #include <gp_Trsf.hxx>
 
+#include "app/import/meshing_plan.h"
 #include "app/import/occ_progress.h"
 #include "app/import/placed_mesh.h"
 #include "app/import/shape_mesher.h"
@@ -487,31 +491,65 @@ class XcafReader {
     }
   }
 
+  /// Result of meshing.
+  struct MeshedShape {
+    CadShape shape;
+    std::string problem = "it has no triangles";  ///< Why it has none.
+    std::exception_ptr failure;                   ///< Ends the import.
+  };
+
   void meshAll() {
-    const Message_ProgressRange range = progress_.stageTo(stageEndsOf(job_).meshed);
-    const OccProgress::Steady steady(progress_);
-    Message_ProgressScope scope(range, "mesh",
-                                static_cast<double>(std::max<std::size_t>(1, pending_.size())));
-    for (const PendingShape& pending : pending_) {
-      const Message_ProgressRange part = scope.Next();
-      if (builder_.isWanted(pending.shape)) mesh(pending, part);
+    std::vector<PendingShape> wanted;
+    for (const PendingShape& pending : pending_)
+      if (builder_.isWanted(pending.shape)) wanted.push_back(pending);
+    std::vector<MeshedShape> meshed(wanted.size());
+    {
+      const Message_ProgressRange range = progress_.stageTo(stageEndsOf(job_).meshed);
+      const OccProgress::Steady steady(progress_);
+      Message_ProgressScope scope(range, "mesh",
+                                  static_cast<double>(std::max<std::size_t>(1, wanted.size())));
+      std::vector<Message_ProgressRange> parts;
+      std::vector<const Body*> bodies;
+      for (const PendingShape& pending : wanted) {
+        parts.push_back(scope.Next());
+        bodies.push_back(&pending.piece->body);
+      }
+      const auto meshGroup = [&](const BodyGroup& group, bool usesAllThreads) {
+        for (const std::size_t i : group)
+          mesh(wanted[i], parts[i], usesAllThreads, meshed[i]);
+      };
+      const int threads = OSD_ThreadPool::DefaultPool()->NbThreads();
+      const MeshingPlan plan = planMeshing(bodies, static_cast<std::size_t>(std::max(threads, 1)));
+      for (const BodyGroup& group : plan.large)
+        meshGroup(group, true);
+      OSD_Parallel::For(0, static_cast<int>(plan.small.size()),
+                        [&](int i) { meshGroup(plan.small[static_cast<std::size_t>(i)], false); });
+    }
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      keep(wanted[i], std::move(meshed[i]));
+  }
+
+  void mesh(const PendingShape& pending, const Message_ProgressRange& range, bool usesAllThreads,
+            MeshedShape& result) const {
+    const double scale = pending.scale * options_.metresPerUnit;
+    try {
+      result.shape = options_.areTriangles ? meshTriangulated(pending.piece->whole, glm::dmat3(scale))
+                                           : meshExact(pending, scale, range, usesAllThreads);
+    } catch (const Standard_Failure& failure) {
+      result.problem = failure.GetMessageString();
+      result.shape = {};
+    } catch (...) {
+      result.failure = std::current_exception();
     }
   }
 
-  void mesh(const PendingShape& pending, const Message_ProgressRange& range) {
-    const double scale = pending.scale * options_.metresPerUnit;
-    CadShape shape;
-    std::string problem = "it has no triangles";
-    try {
-      shape = options_.areTriangles ? meshTriangulated(pending.piece->whole, glm::dmat3(scale))
-                                    : meshExact(pending, scale, range);
-    } catch (const Standard_Failure& failure) {
-      problem = failure.GetMessageString();
-      shape = {};
-    }
-    if (shape.triangles.empty() && !shape.warnings.empty()) problem = withoutFullStop(shape.warnings.front());
+  void keep(const PendingShape& pending, MeshedShape meshed) {
+    if (meshed.failure) std::rethrow_exception(meshed.failure);
+    CadShape& shape = meshed.shape;
+    if (shape.triangles.empty() && !shape.warnings.empty())
+      meshed.problem = withoutFullStop(shape.warnings.front());
     if (shape.triangles.empty())
-      builder_.warn(fmt::format("\"{}\" is left out: {}.", builder_.keyOf(pending.shape), problem));
+      builder_.warn(fmt::format("\"{}\" is left out: {}.", builder_.keyOf(pending.shape), meshed.problem));
     if (!isWithinLimits(shape)) {
       builder_.warn(fmt::format("\"{}\" is left out: its coordinates are beyond range.",
                                 builder_.keyOf(pending.shape)));
@@ -527,7 +565,8 @@ class XcafReader {
     });
   }
 
-  CadShape meshExact(const PendingShape& pending, double scale, const Message_ProgressRange& range) const {
+  CadShape meshExact(const PendingShape& pending, double scale, const Message_ProgressRange& range,
+                     bool usesAllThreads) const {
     MeshRequest request;
     request.body = pending.piece->body;
     request.isSolid = pending.piece->isSolid;
@@ -535,6 +574,7 @@ class XcafReader {
     request.hasUnit = options_.hasUnit;
     request.wanted = job_.tessellation;
     request.colours = &pending.product->colours;
+    request.usesAllThreads = usesAllThreads;
     return meshBody(request, range);
   }
 

@@ -113,9 +113,11 @@ bool haveOtherUnits(const std::map<PartId, PartGeometryPtr>& before,
   });
 }
 
-/// Returns "1000" or "25.4".
+/// Returns "1,000,000" or "25.4".
 QString times(double factor) {
-  return QLocale().toString(factor, 'g', factor >= 100.0 ? 4 : 3);
+  constexpr double kFromWhole = 100.0;
+  if (factor >= kFromWhole) return QLocale().toString(std::round(factor), 'f', 0);
+  return QLocale().toString(factor, 'g', 3);
 }
 
 /// Returns "about 14,000".

@@ -90,6 +90,8 @@ QString ClearanceModel::textOf(const Row& row, int column) const {
     case Other:
       return row.name;
     case Distance:
+      // How deep parts are in each other is not searched here.
+      if (c.isOverlapping()) return QStringLiteral("–");
       return formatDistance(c.distance, c.isDistanceBound);
     case Minima:
       if (c.isOverlapping() || c.isTouching) return QStringLiteral("–");

@@ -56,6 +56,7 @@ class DesktopAlignTest : public QObject {
 void DesktopAlignTest::hoverTellsWhatWouldBePicked() {
   DesktopDriver d;
   begin(d);
+  QCOMPARE(d.text("alignHint"), QStringLiteral("Locked parts don't move; selected parts move together"));
   hover(d, {0.003, kMovingFront, 0.036});
   QTRY_COMPARE(d.text("alignHint"), QStringLiteral("Flat face of moving"));
   hover(d, {0.0, kMovingFront, kTop});

@@ -1,6 +1,10 @@
+#include <QFile>
 #include <QImage>
 #include <QProcess>
+#include <filesystem>
 #include <set>
+
+#include <sys/stat.h>
 
 #include "tests/app/desktop/desktop_driver.h"
 
@@ -8,6 +12,8 @@ using namespace nearfit;
 using namespace nearfit::test;
 
 namespace {
+
+namespace fs = std::filesystem;
 
 struct ProgramOutcome {
   int code = -1;
@@ -52,6 +58,8 @@ class DesktopCommandLineTest : public QObject {
   void brokenFileEndsWithAMessage();
   void folderWithoutFilesEndsWithAMessage();
   void picturePathThatCannotBeWrittenEndsWithAMessage();
+  void outputsReplaceNeitherInputsNorEachOther();
+  void aPictureDoesNotGoIntoAPipe();
 };
 
 void DesktopCommandLineTest::helpAndVersionNeedNoDisplay() {
@@ -144,6 +152,45 @@ void DesktopCommandLineTest::picturePathThatCannotBeWrittenEndsWithAMessage() {
       run({box, kUnit, kMm, QStringLiteral("--screenshot"), QStringLiteral("/no/such/folder/window.png")});
   QCOMPARE(outcome.code, 1);
   QVERIFY(outcome.err.contains(QStringLiteral("/no/such/folder/window.png")));
+}
+
+/// With OUT forgotten, the scene was replaced by its picture.
+void DesktopCommandLineTest::outputsReplaceNeitherInputsNorEachOther() {
+  const TemporaryFolder folder;
+  const auto nameOf = [&](const char* file) {
+    return QString::fromStdString((folder.path() / file).string());
+  };
+  const QByteArray content("the scene");
+  folder.write("fit.nearfit", content.toStdString());
+  folder.write("felt.csv", content.toStdString());
+  fs::create_symlink("fit.nearfit", folder.path() / "link.png");
+  const QString scene = nameOf("fit.nearfit"), felt = nameOf("felt.csv"), picture = nameOf("a.png");
+  const QString screenshot = QStringLiteral("--screenshot"), record = QStringLiteral("--record");
+  for (const QStringList& arguments :
+       {QStringList{screenshot, scene}, QStringList{scene, screenshot, nameOf("link.png")},
+        QStringList{scene, record, nameOf("./fit.nearfit")},
+        QStringList{scene, screenshot, picture, record, nameOf("./a.png")},
+        QStringList{scene, QStringLiteral("--device"), QStringLiteral("replay:") + felt, record, felt}}) {
+    const ProgramOutcome outcome = run(arguments);
+    QVERIFY2(outcome.code == 2, qPrintable(arguments.join(QChar(' ')) + outcome.err));
+  }
+  for (const QString& file : {scene, felt}) {
+    QFile kept(file);
+    QVERIFY(kept.open(QIODevice::ReadOnly));
+    QCOMPARE(kept.readAll(), content);
+  }
+  QVERIFY(!QFile::exists(picture));
+}
+
+/// It waited for a reader that never came.
+void DesktopCommandLineTest::aPictureDoesNotGoIntoAPipe() {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe.png";
+  QCOMPARE(::mkfifo(pipe.c_str(), 0600), 0);
+  const ProgramOutcome outcome = run({QStringLiteral("--screenshot"), QString::fromStdString(pipe.string())});
+  QCOMPARE(outcome.code, 1);
+  QVERIFY2(outcome.err.contains(QStringLiteral("a device, a pipe or a socket")), qPrintable(outcome.err));
+  QVERIFY(fs::is_fifo(pipe));
 }
 
 NEARFIT_QT_SUITE(DesktopCommandLineTest, runDesktopTest<DesktopCommandLineTest>)

@@ -110,6 +110,7 @@ void DesktopMeasureTest::aThirdClickBeginsAnew() {
   DesktopDriver d;
   measureCorners(d);
   ViewPointer pointer(d);
+  QTRY_COMPARE(d.text("measureHint"), QStringLiteral("Click to start a new measurement; Esc exits"));
   pointer.click({0.01 - kInside, -0.01, 0.045 - kInside});
   QVERIFY(!isShown(d, "measureDistance"));
   QVERIFY(!d.widget<QLabel>("measureLabel")->isVisible());

@@ -77,6 +77,7 @@ class DesktopPartFilesTest : public QObject {
   void rewrittenSameContentIsNotOffered();
   void partOfTheWrongUnitIsCalledOutAndRescaled();
   void aPartThatIsTooLargeIsCalledOutToo();
+  void aFactorOfAMillionIsWrittenOut();
   void cancelOfAMillionTrianglesAnswersBeforeTheImporterDoes();
 };
 
@@ -282,6 +283,22 @@ void DesktopPartFilesTest::partOfTheWrongUnitIsCalledOutAndRescaled() {
   QVERIFY(choice(d, "notice-rescale", "choice1") == nullptr);
   pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);
   QCOMPARE(widthOf(d.part("tiny")), 0.00003);
+}
+
+/// The button said "Make 1e+06 times smaller".
+void DesktopPartFilesTest::aFactorOfAMillionIsWrittenOut() {
+  DesktopDriver d;
+  d.addCubes();
+  d.window().document().addParts({writeOff(d.folder.path() / "vast.off", boxMesh(glm::dvec3(30'000.0)))},
+                                 1.0);
+  QTRY_VERIFY(choice(d, "notice-rescale", "choice1") != nullptr);
+  QStringList offers;
+  for (const char* name : {"choice1", "choice2", "choice3"})
+    if (const auto* button = choice(d, "notice-rescale", name)) offers << button->text().remove(QChar(','));
+  QVERIFY2(offers.contains(QStringLiteral("Make 1000000 times smaller")),
+           qPrintable(offers.join(QChar(';'))));
+  for (const QString& offer : offers)
+    QVERIFY2(!offer.contains(QStringLiteral("e+")), qPrintable(offer));
 }
 
 void DesktopPartFilesTest::aPartThatIsTooLargeIsCalledOutToo() {

@@ -2,6 +2,7 @@
 #include <QProcess>
 #include <QSignalSpy>
 #include <QStatusBar>
+#include <algorithm>
 
 #include <signal.h>
 
@@ -236,6 +237,10 @@ void DesktopRecoveryTest::laterOffersAgainAndDiscardDoesNot() {
   ui::RecoveryDialog* dialog = dialogOf(d);
   QVERIFY(dialog != nullptr);
   const QPointer<QDialog> closed(dialog);
+  const auto labels = dialog->findChildren<QLabel*>();
+  QVERIFY(std::ranges::any_of(labels, [](const QLabel* label) {
+    return label->text().contains(QStringLiteral("Items left for later are offered at next start."));
+  }));
   clickIn(dialog, "later1");
   QTRY_VERIFY_WITH_TIMEOUT(closed.isNull(), 30'000);
   QCOMPARE(filesIn(place.state).size(), std::size_t{1});

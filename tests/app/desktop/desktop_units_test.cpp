@@ -361,6 +361,8 @@ void DesktopUnitsTest::anotherUnitIsAnImportInItAndOneStep() {
   });
   d.choose("changeUnit");
   QTRY_COMPARE(d.part("fixed").geometry->metresPerUnit, 0.0254);
+  QTRY_VERIFY2(d.window().statusBar()->currentMessage().endsWith(QStringLiteral("Undo to revert.")),
+               qPrintable(d.window().statusBar()->currentMessage()));
   QCOMPARE(d.session().historyIndex(), steps + 1);
   QCOMPARE(d.session().undoText(), std::string("Change the unit of fixed"));
   QCOMPARE(d.part("fixed").worldFromPart.translation, pose.translation);

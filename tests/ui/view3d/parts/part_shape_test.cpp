@@ -2,6 +2,7 @@
 
 #include <QtTest>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <thread>
 
@@ -14,6 +15,7 @@
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/qt/qt_suite.h"
+#include "tests/support/suggest_scenes.h"
 
 using namespace nearfit;
 
@@ -21,6 +23,26 @@ namespace {
 
 PartGeometryPtr geometryOf(TriangleMesh mesh) {
   return std::make_shared<PartGeometry>(PartGeometry{"", "", 1.0, std::move(mesh), {}, {}});
+}
+
+/// True if a triangle meets the line through (x, y) along z.
+bool isCrossedBy(vtkPolyData* surface, double x, double y) {
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  surface->GetPolys()->InitTraversal();
+  while (surface->GetPolys()->GetNextCell(count, ids) != 0) {
+    double p[3][3];
+    for (vtkIdType k = 0; k < 3; ++k)
+      surface->GetPoint(ids[k], p[k]);
+    std::array<double, 3> sides{};
+    for (int k = 0; k < 3; ++k) {
+      const double *a = p[k], *b = p[(k + 1) % 3];
+      sides[static_cast<std::size_t>(k)] = (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+    }
+    const auto [least, most] = std::ranges::minmax(sides);
+    if (least > 0.0 || most < 0.0) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -45,6 +67,7 @@ class PartShapeTest : public QObject {
   void manyShapesAreKeptWhileTheirGeometriesExist();
   void unusedShapesAreNotLookedForAtEachNewOne();
   void threadsMayAskAtOnce();
+  void theFinestDraftKeepsHolesAndTheSilhouette();
 };
 
 void PartShapeTest::boxShowsItsTwelveEdges() {
@@ -87,6 +110,31 @@ void PartShapeTest::normalsOfABoxPointOutOfItsFaces() {
     shape.surface->GetPoint(i, p);
     // On a cube of half side 1 about the origin a face's plane is n.p = 1.
     QVERIFY(std::abs(n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - 1.0) < 1e-6);
+  }
+}
+
+/// While it is felt, a large part was a crumpled shell.
+void PartShapeTest::theFinestDraftKeepsHolesAndTheSilhouette() {
+  constexpr double kSide = 0.2, kThickness = 0.02, kHoleRadius = 0.0125;
+  const TriangleMesh plate = test::subdivided(test::plateWithHoleMesh(kSide, kThickness, kHoleRadius, 48), 4);
+  const ui::PartShape shape = ui::makePartShape(plate);
+  QVERIFY(!shape.drafts.empty());
+  const double cell = shape.levels[1].cell;
+  vtkPolyData* draft = shape.finestDraft();
+  // Where the hole is there is nothing, and something all around it, as far as a draft may be off.
+  QVERIFY(cell < 0.5 * kHoleRadius);
+  const double inside = kHoleRadius - 1.5 * cell, outside = kHoleRadius + 1.5 * cell;
+  constexpr int kDirections = 16;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 0.1 + 2.0 * 3.14159 * i / kDirections;
+    QVERIFY(!isCrossedBy(draft, inside * std::cos(angle), inside * std::sin(angle)));
+    QVERIFY(isCrossedBy(draft, outside * std::cos(angle), outside * std::sin(angle)));
+  }
+  double box[6];
+  draft->GetBounds(box);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = 0.5 * (axis == 2 ? kThickness : kSide);
+    QVERIFY(std::abs(box[2 * axis] + half) <= cell && std::abs(box[2 * axis + 1] - half) <= cell);
   }
 }
 
