@@ -2,6 +2,7 @@
 // files that have exact surfaces, and returns the bytes of a STEP file.
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -23,6 +24,7 @@
 #include "app/import/message_pipe.h"
 #include "app/import/occ_progress.h"
 #include "app/import/read_document.h"
+#include "app/import/result_file.h"
 #include "app/import/sandbox.h"
 #include "core/base/error.h"
 #include "core/import/import_protocol.h"
@@ -36,8 +38,6 @@ namespace protocol = nearfit::import_protocol;
 
 /// Progress once the sources are read, and once all shapes are there.
 constexpr double kSourcesRead = 0.4, kShapesMade = 0.5;
-/// Result bytes gathered before a write.
-constexpr std::size_t kWrittenAtOnce = std::size_t{1} << 20;
 
 std::vector<std::byte> readRequestBytes() {
   struct ::stat status{};
@@ -54,28 +54,6 @@ std::vector<std::byte> readRequestBytes() {
   }
   return bytes;
 }
-
-/// Writes the result, in large pieces.
-class ResultFile {
- public:
-  void add(std::string_view text) {
-    pending_ += text;
-    if (pending_.size() >= kWrittenAtOnce) flush();
-  }
-  void flush() {
-    for (std::string_view left = pending_; !left.empty();) {
-      const ::ssize_t count = ::write(protocol::kResultDescriptor, left.data(), left.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0)
-        throw nearfit::Error("", "the file would be too large, or memory has run out", "export fewer parts");
-      left.remove_prefix(static_cast<std::size_t>(count));
-    }
-    pending_.clear();
-  }
-
- private:
-  std::string pending_;
-};
 
 /// Exact geometry where there is one, facets elsewhere.
 std::vector<exporter::ProductShape> shapesOf(const nearfit::StepRequest& request,
@@ -105,14 +83,14 @@ int exportRequest(importer::MessagePipe& messages) {
   importer::setUpOcc();
   sources.read([&](double fraction) { messages.progress(kSourcesRead * fraction); });
   std::vector<exporter::ProductShape> shapes = shapesOf(request, sources, messages);
-  ResultFile result;
-  nearfit::writeStepNotes(sources.notes(), [&](std::span<const std::byte> some) {
-    result.add({reinterpret_cast<const char*>(some.data()), some.size()});
-  });
+  importer::ResultFile result(
+      protocol::kResultDescriptor,
+      {"", "the file would be too large, or memory has run out", "export fewer parts"});
+  nearfit::writeStepNotes(sources.notes(), [&](std::span<const std::byte> some) { result.add(some); });
   exporter::writeStep(
       request, shapes,
       [&](double fraction) { messages.progress(kShapesMade + (1.0 - kShapesMade) * fraction); },
-      [&](std::string_view text) { result.add(text); });
+      [&](std::string_view text) { result.add(std::as_bytes(std::span(text))); });
   result.flush();
   messages.progress(1.0);
   return protocol::kDone;

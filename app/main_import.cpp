@@ -2,11 +2,12 @@
 // does here.
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <span>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include "app/import/import_job.h"
 #include "app/import/message_pipe.h"
 #include "app/import/read_document.h"
+#include "app/import/result_file.h"
 #include "app/import/sandbox.h"
 #include "core/base/error.h"
 #include "core/import/document_file.h"
@@ -23,35 +25,6 @@ namespace {
 
 namespace importer = nearfit::importer;
 namespace protocol = nearfit::import_protocol;
-
-/// Result bytes gathered before a write.
-constexpr std::size_t kWrittenAtOnce = std::size_t{1} << 20;
-
-/// Writes to a descriptor, in large pieces.
-class ResultWriter {
- public:
-  explicit ResultWriter(int descriptor) : descriptor_(descriptor) {}
-
-  void add(std::span<const std::byte> bytes) {
-    pending_.insert(pending_.end(), bytes.begin(), bytes.end());
-    if (pending_.size() >= kWrittenAtOnce) flush();
-  }
-  void flush() {
-    for (std::span<const std::byte> left = pending_; !left.empty();) {
-      const ::ssize_t count = ::write(descriptor_, left.data(), left.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0)
-        throw nearfit::Error("", "its triangles are too many, or memory has run out",
-                             "choose a coarser tessellation");
-      left = left.subspan(static_cast<std::size_t>(count));
-    }
-    pending_.clear();
-  }
-
- private:
-  int descriptor_;
-  std::vector<std::byte> pending_;
-};
 
 /// Tells on stderr what each stage took.
 class StageTimes {
@@ -72,7 +45,8 @@ class StageTimes {
 /// Throws FileError if the document exceeds a limit: what its file says is too large, too far away or not finite.
 void writeResult(const nearfit::CadDocument& document, const importer::ImportOptions& options) {
   try {
-    ResultWriter result(options.result);
+    importer::ResultFile result(options.result, {"", "its triangles are too many, or memory has run out",
+                                                 "choose a coarser tessellation"});
     nearfit::writeDocument(document, [&](std::span<const std::byte> bytes) { result.add(bytes); });
     result.flush();
   } catch (const nearfit::Error& error) {

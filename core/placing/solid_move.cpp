@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/mesh/mass_properties.h"
 #include "core/scene/haptic_limits.h"
+#include "core/servo/servo_bodies.h"
 
 namespace nearfit {
 namespace {
@@ -70,16 +71,8 @@ std::shared_ptr<const ServoScene> makePlacingScene(const Scene& scene, std::span
   const bool isAlone = felt.size() == 1 && felt.front() == &first;
   result->setMoving(
       {first.id, isAlone ? first.geometry : joined(felt, first.worldFromPart), first.worldFromPart});
-  for (const Scene::PartPtr& part : scene.parts()) {
-    const bool isMoved = std::ranges::find(moved, part->id) != moved.end();
-    if (isMoved || !part->isVisible || part->geometry == nullptr) continue;
-    result->bodies.push_back({part->id, part->geometry, part->worldFromPart});
-  }
-  std::vector<PartGeometryPtr> geometries{result->moving.geometry};
-  for (const ServoScene::Body& body : result->bodies)
-    geometries.push_back(body.geometry);
-  prepareHierarchies(geometries, progress);
-  result->prepareSurfaces();
+  const auto isMoved = [&](PartId id) { return std::ranges::find(moved, id) != moved.end(); };
+  addBodies(*result, scene, isMoved, progress);
   return result;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/servo/servo_bodies.h"
+
 namespace nearfit {
 
 void ServoScene::setMoving(const Body& body) {
@@ -45,18 +47,7 @@ std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene) {
   result->members = std::move(moving.members);
   result->mass = moving.mass;
   result->setJoints(jointsOfMoving(scene));
-  if (!moving.isVisible) return result;
-  result->bodies.reserve(scene.parts().size());
-  for (const Scene::PartPtr& part : scene.parts()) {
-    if (scene.isMoving(part->id) || !part->isVisible || part->geometry == nullptr) continue;
-    result->bodies.push_back({part->id, part->geometry, part->worldFromPart});
-  }
-  // Waiting is allowed here, but not in a tick.
-  std::vector<PartGeometryPtr> geometries{result->moving.geometry};
-  for (const ServoScene::Body& body : result->bodies)
-    geometries.push_back(body.geometry);
-  prepareHierarchies(geometries);
-  result->prepareSurfaces();
+  if (moving.isVisible) addBodies(*result, scene, [&](PartId id) { return scene.isMoving(id); });
   return result;
 }
 

@@ -73,6 +73,8 @@ std::vector<ErrorMethodEntry> exactErrorMethods();
 std::vector<ErrorMethodEntry> approximateErrorMethods();
 std::vector<ErrorMethodEntry> fieldErrorMethods();
 std::vector<ErrorMethodEntry> paperErrorMethods();
+/// A spring at each pair of triangles within the cutoff. Not among allErrorMethods(): it sums other springs on purpose.
+ErrorMethodEntry allPairsErrorMethod();
 std::vector<ErrorMethodEntry> fclErrorMethods();  ///< Where the program is built with FCL.
 
 /// All that this program is built with, the exact ones first.

@@ -78,24 +78,7 @@ std::vector<NamedMode> modesOf(const ErrorScene& scene) {
                      if (answer.minima.size() > 1) answer.minima.resize(1);
                      answer.wrench = scene.wrenchOf(answer.minima, pose);
                    }});
-  struct Pairs {
-    PaperHierarchy scene, part;
-    PaperQuery query{scene, part};
-  };
-  const BenchScene& meshes = scene.bodies.meshes;
-  const auto pairs = std::make_shared<Pairs>(PaperHierarchy(meshes.scene, PaperRule::AllPairs),
-                                             PaperHierarchy(meshes.part, PaperRule::AllPairs));
-  modes.push_back({"all pairs", [pairs, &scene](const RigidTransform& pose, ContactAnswer& answer) {
-                     answer.clear();
-                     for (const PaperMinimum& m : pairs->query.find(pose, scene.bodies.cutoff)) {
-                       Lmd& lmd = answer.minima.emplace_back();
-                       lmd.scenePoint = m.scenePoint;
-                       lmd.partPoint = m.partPoint;
-                       lmd.distance = m.distance;
-                       lmd.direction = m.direction;
-                     }
-                     answer.wrench = scene.wrenchOf(answer.minima, pose);
-                   }});
+  modes.push_back({"all pairs", modeOf(allPairsErrorMethod(), scene)});
   modes.push_back({"paper spans", modeOf(error("paper spans"), scene)});
   modes.push_back({"paper cones", modeOf(error("paper cones"), scene)});
   modes.push_back({"exact", exact});
@@ -272,7 +255,7 @@ std::vector<PaperFigure> centreFigures(const FigureHead& head, const ErrorScene&
   return figures;
 }
 
-/// How far no point of the part moves between two poses [m].
+/// No point of the part moves farther between two poses [m].
 double motionOf(const RigidTransform& from, const RigidTransform& to, double partRadius) {
   const double turn = 2.0 * std::acos(std::min(std::abs(glm::dot(from.rotation, to.rotation)), 1.0));
   return glm::distance(from.translation, to.translation) + turn * partRadius;
@@ -359,10 +342,8 @@ Jump jumpBetween(const SpringMode& mode, const RigidTransform& from, const Rigid
     }
   }
   jump.size = changeBetween(atLow, atHigh);
-  const double turn = 2.0 * std::acos(std::min(std::abs(glm::dot(low.rotation, high.rotation)), 1.0));
   // A gap changes by no more than points move; twice that, for the rounding of what is left.
-  const double motion =
-      2.0 * (glm::distance(low.translation, high.translation) + turn * partRadius) + kMotionRounding * cutoff;
+  const double motion = 2.0 * motionOf(low, high, partRadius) + kMotionRounding * cutoff;
   countUnmatched(atHigh, atLow, cutoff, motion, jump);
   countUnmatched(atLow, atHigh, cutoff, motion, jump);
   return jump;

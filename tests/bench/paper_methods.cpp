@@ -108,4 +108,9 @@ std::vector<ErrorMethodEntry> paperErrorMethods() {
                       PaperRule::NormalCones)};
 }
 
+ErrorMethodEntry allPairsErrorMethod() {
+  return paperErrorEntry("all pairs", "all pairs of triangles within the cutoff, by the same hierarchy",
+                         PaperRule::AllPairs);
+}
+
 }  // namespace nearfit::bench

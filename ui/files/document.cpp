@@ -169,15 +169,12 @@ Document::~Document() = default;
 
 void Document::load(const QString& title, const QString& text, BackgroundTask::Job job,
                     std::function<void(std::exception_ptr)> done) {
-  progress_ = new ProgressDialog(title, text, window_);
-  connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
-  connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
-  task_.run(std::move(job), [this, done = std::move(done)](const std::exception_ptr& error) {
-    delete progress_;
+  const auto ended = [this, done = std::move(done)](const std::exception_ptr& error) {
     emit busyChanged();
     done(error);
     prepareNext();
-  });
+  };
+  runWithDialog(task_, title, text, window_, std::move(job), ended);
   emit busyChanged();
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <QPointer>
 #include <QStringList>
 #include <filesystem>
 #include <functional>
@@ -19,7 +18,6 @@ class QWidget;
 
 namespace nearfit::ui {
 
-class ProgressDialog;
 struct DroppedFiles;
 
 /// Opens, saves and extends the session's scene, with the dialogs for that. Loads in another thread; the open
@@ -124,7 +122,6 @@ class Document : public SceneWork {
   std::shared_ptr<PartShapeCache> shapes_;
   QWidget* window_;
   BackgroundTask task_;
-  QPointer<ProgressDialog> progress_;
   std::map<QString, double> chosenUnits_;                   ///< In this run, by folder and by ".type" [m].
   std::vector<std::function<void(bool isReady)>> waiting_;  ///< Unanswered prepareHierarchies() calls.
 };

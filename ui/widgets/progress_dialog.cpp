@@ -2,10 +2,12 @@
 
 #include <QDialogButtonBox>
 #include <QLabel>
+#include <QPointer>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTimer>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "ui/widgets/font_scale.h"
 #include "ui/widgets/names.h"
@@ -44,6 +46,18 @@ void ProgressDialog::setFraction(double fraction) {
 
 void ProgressDialog::reject() {
   emit cancelled();
+}
+
+void runWithDialog(BackgroundTask& task, const QString& title, const QString& text, QWidget* window,
+                   BackgroundTask::Job job, std::function<void(std::exception_ptr)> done) {
+  // It may go before the job ends: with its window.
+  const QPointer<ProgressDialog> dialog = new ProgressDialog(title, text, window);
+  QObject::connect(&task, &BackgroundTask::progressed, dialog, &ProgressDialog::setFraction);
+  QObject::connect(dialog, &ProgressDialog::cancelled, &task, &BackgroundTask::cancel);
+  task.run(std::move(job), [dialog, done = std::move(done)](const std::exception_ptr& error) {
+    delete dialog;
+    done(error);
+  });
 }
 
 }  // namespace nearfit::ui

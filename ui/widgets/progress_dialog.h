@@ -1,6 +1,10 @@
 #pragma once
 
 #include <QDialog>
+#include <exception>
+#include <functional>
+
+#include "ui/widgets/background_task.h"
 
 class QLabel;
 class QProgressBar;
@@ -29,5 +33,13 @@ class ProgressDialog : public QDialog {
  private:
   QProgressBar* bar_;
 };
+
+/// Starts a job whose progress a dialog over `window` shows, and which its user can cancel there. The dialog is gone
+/// when `done` is called.
+/// @param task       None of its jobs may be running.
+/// @param title      As of ProgressDialog.
+/// @param job, done  As of BackgroundTask::run().
+void runWithDialog(BackgroundTask& task, const QString& title, const QString& text, QWidget* window,
+                   BackgroundTask::Job job, std::function<void(std::exception_ptr)> done);
 
 }  // namespace nearfit::ui

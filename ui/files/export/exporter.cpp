@@ -104,11 +104,7 @@ void Exporter::write(const SceneExport& what, const QString& file) {
     *notes = exportScene(scene, pose, what, path, progress);
   };
   const QString name = QFileInfo(file).fileName();
-  progress_ = new ProgressDialog(tr("Writing"), tr("Writing %1").arg(name), window_);
-  connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
-  connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
-  task_.run(job, [this, file, name, notes](const std::exception_ptr& error) {
-    delete progress_;
+  const auto done = [this, file, name, notes](const std::exception_ptr& error) {
     if (isCancelled(error)) return;
     if (error) {
       emit failed(describe(tr("Nothing was exported."), error));
@@ -119,7 +115,8 @@ void Exporter::write(const SceneExport& what, const QString& file) {
     if (!notes->empty()) text += QStringLiteral(". ") + QString::fromStdString(notes->front());
     if (notes->size() > 1) text += tr(" (and %1 more)").arg(notes->size() - 1);
     emit noted(text);
-  });
+  };
+  runWithDialog(task_, tr("Writing"), tr("Writing %1").arg(name), window_, job, done);
 }
 
 void Exporter::copyPlacement() {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QObject>
-#include <QPointer>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,7 +15,6 @@ class QWidget;
 
 namespace nearfit::ui {
 
-class ProgressDialog;
 class Reporter;
 class SceneWork;
 class Selection;
@@ -70,7 +68,6 @@ class Exporter : public QObject {
   QAction *export_, *copy_;
   Reporter* reporter_;
   BackgroundTask task_;
-  QPointer<ProgressDialog> progress_;
   Subscription changes_;
 };
 

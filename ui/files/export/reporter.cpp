@@ -117,11 +117,7 @@ void Reporter::write(double threshold, const QString& path, const QString& certi
     *outcome = makeReport(work, progress);
   };
   const QString name = QFileInfo(file).fileName();
-  progress_ = new ProgressDialog(tr("Report"), tr("Writing %1").arg(name), window_);
-  connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
-  connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
-  task_.run(job, [this, file, name, outcome](const std::exception_ptr& error) {
-    delete progress_;
+  const auto done = [this, file, name, outcome](const std::exception_ptr& error) {
     if (isCancelled(error)) return;
     if (error) {
       emit failed(describe(tr("No report was written."), error));
@@ -129,7 +125,8 @@ void Reporter::write(double threshold, const QString& path, const QString& certi
     }
     Preferences::rememberFolderOf(file);
     emit noted(tr("Wrote %1. %2").arg(name, QString::fromStdString(outcome->sentence)));
-  });
+  };
+  runWithDialog(task_, tr("Report"), tr("Writing %1").arg(name), window_, job, done);
 }
 
 }  // namespace nearfit::ui

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QObject>
-#include <QPointer>
 #include <functional>
 
 #include "core/session/session.h"
@@ -13,7 +12,6 @@ class QWidget;
 
 namespace nearfit::ui {
 
-class ProgressDialog;
 class SceneWork;
 
 /// Writes reports of the scene: asks what they are to hold and where they go, makes them in another thread that takes
@@ -57,7 +55,6 @@ class Reporter : public QObject {
   QWidget* window_;
   QAction* action_;
   BackgroundTask task_;
-  QPointer<ProgressDialog> progress_;
   Subscription changes_;
 };
 

@@ -171,23 +171,20 @@ std::optional<QString> PathCommands::askForFile(const QString& title, const QStr
 void PathCommands::run(const QString& title, const QString& attempt, BackgroundTask::Job work,
                        std::function<void()> done) {
   if (task_.isRunning()) return;
-  progress_ = new ProgressDialog(title, title + QChar(0x2026), window_);
-  connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
-  connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
   const auto job = [work = std::move(work)](const ProgressCallback& progress) {
     // The view goes first.
     lowerThreadPriority();
     work(progress);
   };
-  task_.run(job, [this, attempt, done = std::move(done)](const std::exception_ptr& error) {
-    delete progress_;
+  const auto ended = [this, attempt, done = std::move(done)](const std::exception_ptr& error) {
     if (!error) {
       done();
     } else if (!isCancelled(error)) {
       emit failed(describe(attempt, error));
     }
     updateActions();
-  });
+  };
+  runWithDialog(task_, title, title + QChar(0x2026), window_, job, ended);
   updateActions();
 }
 

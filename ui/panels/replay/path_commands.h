@@ -2,7 +2,6 @@
 
 #include <QList>
 #include <QObject>
-#include <QPointer>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -20,7 +19,6 @@ class QWidget;
 
 namespace nearfit::ui {
 
-class ProgressDialog;
 class Replay;
 class Timeline;
 
@@ -92,7 +90,6 @@ class PathCommands : public QObject {
   QList<QAction*> forMotion_;
   QAction *clearance_ = nullptr, *certificate_ = nullptr;
   BackgroundTask task_;
-  QPointer<ProgressDialog> progress_;
   std::shared_ptr<const Certified> certified_;  ///< Null: nothing is proven of what is open.
   std::uint64_t certifiedState_ = 0;            ///< Session::stateSerial() of what certified_ proves.
   Subscription changes_;

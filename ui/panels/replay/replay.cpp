@@ -119,14 +119,11 @@ void Replay::open(const QString& file) {
   close();
   Preferences::rememberFolderOf(file);
   auto read = std::make_shared<OpenedMotion>();
-  progress_ = new ProgressDialog(tr("Reading"), tr("Reading %1").arg(QFileInfo(file).fileName()), window_);
-  connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
-  connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
   const auto job = [read, path = toPath(file)](const ProgressCallback& progress) {
     *read = readMotionFile(path, progress);
   };
-  task_.run(job, [this, read, file](const std::exception_ptr& error) {
-    delete progress_;
+  const QString text = tr("Reading %1").arg(QFileInfo(file).fileName());
+  const auto done = [this, read, file](const std::exception_ptr& error) {
     if (!error) {
       if (read->recording.isCut)
         emit noted(tr("The recording is incomplete: its last whole row is at %1 s")
@@ -134,7 +131,8 @@ void Replay::open(const QString& file) {
       return begin(file, std::move(read->recording.rows), std::move(read->path));
     }
     if (!isCancelled(error)) emit failed(describe(tr("The recording could not be opened."), error));
-  });
+  };
+  runWithDialog(task_, tr("Reading"), text, window_, job, done);
 }
 
 QString Replay::refusalOf(const AssemblyPath& path) const {

@@ -2,7 +2,6 @@
 
 #include <QElapsedTimer>
 #include <QObject>
-#include <QPointer>
 #include <QTimer>
 #include <memory>
 #include <optional>
@@ -25,7 +24,6 @@ namespace nearfit::ui {
 
 class HandState;
 class MoveGuard;
-class ProgressDialog;
 class Timeline;
 class Viewport;
 
@@ -107,7 +105,6 @@ class Replay : public QObject {
   QWidget* window_;
   QAction* open_;
   BackgroundTask task_;
-  QPointer<ProgressDialog> progress_;
   std::optional<MotionPlayback> playback_;
   std::optional<AssemblyPath> path_;
   PartId moving_{};                     ///< Part that the recording moves.

@@ -100,17 +100,13 @@ void PathSuggestion::search(const SuggestionRequest& request) {
   sceneSerial_ = session_.sceneSerial();
   moving_ = *search->scene.movingPart();
   movingGroup_ = search->scene.movingGroup();
-  progress_ = new ProgressDialog(
-      tr("Searching"), tr("Looking for a path of %1").arg(shortName(nameOfMoving(search->scene))), window_);
-  connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
-  connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
   const auto job = [search](const ProgressCallback& progress) {
     // The view goes first, and a servo.
     lowerThreadPriority();
     search->run(progress);
   };
-  task_.run(job, [this, search](const std::exception_ptr& error) {
-    delete progress_;
+  const QString text = tr("Looking for a path of %1").arg(shortName(nameOfMoving(search->scene)));
+  runWithDialog(task_, tr("Searching"), text, window_, job, [this, search](const std::exception_ptr& error) {
     update();
     if (!error) return show(*search);
     if (isCancelled(error)) return emit noted(tr("The search was cancelled"));

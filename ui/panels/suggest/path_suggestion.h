@@ -20,7 +20,6 @@ class QWidget;
 namespace nearfit::ui {
 
 class HandState;
-class ProgressDialog;
 class SuggestionCard;
 class Viewport;
 
@@ -77,7 +76,6 @@ class PathSuggestion : public QObject {
   QWidget* window_;
   QAction* action_;
   BackgroundTask task_;
-  QPointer<ProgressDialog> progress_;
   QPointer<SuggestionCard> card_;
   std::shared_ptr<const AssemblyPath> path_;  ///< On show; null if there is none.
   bool isGuiding_ = false;

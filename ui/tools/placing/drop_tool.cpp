@@ -152,14 +152,9 @@ void DropTool::compute(Kind kind, const std::vector<PartId>& parts, const glm::d
     *outcome = kind == Kind::Drop ? dropped(scene, parts, direction, progress)
                                   : pushed(scene, parts, direction, progress);
   };
-  progress_ = new ProgressDialog(
-      tr("Nearfit"),
-      kind == Kind::Drop ? tr("Looking for the first contact") : tr("Pushing until the part is held"),
-      window_);
-  connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
-  connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
-  task_.run(job, [=, this](const std::exception_ptr& error) {
-    delete progress_;
+  const QString text =
+      kind == Kind::Drop ? tr("Looking for the first contact") : tr("Pushing until the part is held");
+  runWithDialog(task_, tr("Nearfit"), text, window_, job, [=, this](const std::exception_ptr& error) {
     if (!error) return finish(kind, parts, scene, *outcome);
     if (!isCancelled(error)) emit failed(describe(tr("The part could not be moved."), error));
   });

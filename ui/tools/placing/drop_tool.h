@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QObject>
-#include <QPointer>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -19,7 +18,6 @@ namespace nearfit::ui {
 
 class HandState;
 class MoveGuard;
-class ProgressDialog;
 class SceneWork;
 class Selection;
 class Viewport;
@@ -87,7 +85,6 @@ class DropTool : public QObject {
   FeaturePicker picker_;
   Kind wanted_ = Kind::Drop;
   BackgroundTask task_;
-  QPointer<ProgressDialog> progress_;
   Subscription changes_;
 };
 
