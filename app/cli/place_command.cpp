@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -23,6 +24,7 @@
 #include "core/report/mesh_export.h"
 #include "core/report/placement_export.h"
 #include "core/scene/scene_file.h"
+#include "core/servo/start_apart.h"
 #include "device/simulated/replay_device.h"
 #include "device/simulated/simulated_device.h"
 
@@ -226,11 +228,13 @@ void runPlace(const PlaceOptions& options) {
   job.seconds = options.seconds;
   job.isArming = options.isArming;
   job.isCalibrating = options.isCalibrating;
-  job.scene = makeServoScene(scene);
+  job.parameters.haptics = withOptions(scene.haptics(), options.haptics);
+  auto servoScene = std::make_unique<ServoScene>(*makeServoScene(scene));
+  if (job.parameters.haptics.mode == HapticMode::Proxy) startApart(*servoScene);
+  job.scene = std::move(servoScene);
   const std::string& name = options.group.empty() ? options.part : options.group;
   if (job.scene->areJointsContradictory)
     printError(oneLine(name + ": its joints contradict each other, so that none holds it"));
-  job.parameters.haptics = withOptions(scene.haptics(), options.haptics);
   ServoParameters parameters = job.parameters;
   std::optional<MotionWriter> writer;
   if (!options.record.empty()) job.writer = &writer.emplace(options.record);

@@ -7,6 +7,7 @@
 
 #include "app/desktop/hands.h"
 #include "core/scene/moving_body.h"
+#include "core/servo/start_apart.h"
 #include "device/common/rate_control.h"
 #include "device/interface/device_error.h"
 #include "device/simulated/replay_device.h"
@@ -62,7 +63,7 @@ void ServoController::start(ui::Hand hand, const QString& device) {
       open(device);
       return;
     }
-    std::unique_ptr<const ServoScene> scene = servoScene();
+    std::unique_ptr<const ServoScene> scene = startScene();
     DevicePtr made = startedHand(*scene);
     runOn(std::move(made), std::move(scene));
   } catch (...) {
@@ -80,6 +81,12 @@ std::unique_ptr<ServoScene> ServoController::servoScene() const {
   std::vector<GuidancePose> way = wayOf(*guidance_, made->centreInPart);
   if (way.size() > 1)
     made->guidance = std::make_shared<const GuidancePath>(std::move(way), GuidanceSettings{});
+  return made;
+}
+
+std::unique_ptr<ServoScene> ServoController::startScene() const {
+  auto made = servoScene();
+  if (session_.scene().haptics().mode == HapticMode::Proxy) startApart(*made);
   return made;
 }
 
@@ -136,7 +143,7 @@ void ServoController::takeOpened() {
   }
   isOpened_ = false;
   try {
-    runOn(device_, servoScene());
+    runOn(device_, startScene());
   } catch (...) {
     halt();
     fail(tr("The part could not be taken in hand."), std::current_exception());
@@ -333,9 +340,10 @@ void ServoController::restartAtPart() {
   const RigidTransform part = last.tick > 0 && last.proxy.isFinite() ? last.proxy : startPose_;
   auto moved = servoScene();
   moved->moving.worldFromPart = part;
+  if (session_.scene().haptics().mode == HapticMode::Proxy) startApart(*moved);
   DevicePtr hand = startedHand(*moved);
   runOn(std::move(hand), std::move(moved));
-  emit handReturned(part);
+  emit handReturned(startPose_);
 }
 
 void ServoController::poll() {

@@ -10,6 +10,7 @@
 #include "core/placing/joint_set.h"
 #include "core/placing/straight_contact.h"
 #include "core/proximity/overlap/interference.h"
+#include "core/proximity/surface/surface_distance.h"
 
 namespace nearfit {
 namespace {
@@ -17,6 +18,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUsualGap = 1e-6;   ///< [m]
 constexpr double kGapOfSize = 1e-5;  ///< Fraction of the size of a part smaller than 0.1 m.
+/// Share of the gap that must be left between the surfaces: where they meet at a slant, the gap along the direction is
+/// wider. Also counts the rounding of distances in.
+constexpr double kDistanceOfGap = 0.1;
 /// A travel below this fraction of the gap is rounding: the parts already stand a gap away.
 constexpr double kNoWay = 1e-3;
 
@@ -44,6 +48,18 @@ bool doMeet(const Pair& pair, const glm::dvec3& shift) {
   const PartGeometry &a = *pair.fixed->geometry, &b = *pair.moving->geometry;
   return findInterference(a.tree(), b.tree(), fixedFromMoving(pair, shift)).kind !=
          InterferenceKind::Disjoint;
+}
+
+/// True if bodies that do not meet stand so near that a part taken in hand there would not be told from one that touches:
+/// flats of the meshes that are searched deviate from the files' (NormalConeTree::deviation()).
+bool isTooNear(const Pair& pair, const glm::dvec3& shift, double gap, LmdScratch& scratch) {
+  constexpr std::uint64_t kUnbounded = std::numeric_limits<std::uint64_t>::max();
+  if (!mayMeet(pair, shift)) return false;
+  const NormalConeTree &a = pair.fixed->geometry->tree(), &b = pair.moving->geometry->tree();
+  const double least = a.deviation() + b.deviation() + kDistanceOfGap * gap;
+  const SurfaceDistance found =
+      leastSurfaceDistance(a, b, fixedFromMoving(pair, shift), 2.0 * least, scratch, kUnbounded);
+  return found.lowerBound < least;
 }
 
 const Part& movablePart(const Scene& scene, PartId id) {
@@ -126,9 +142,10 @@ void findFirst(const std::vector<Pair>& pairs, const glm::dvec3& direction, Step
   }
 }
 
-/// Moves back from contact until no two bodies meet.
+/// Moves back from contact until no two bodies meet or are too near to be felt.
 void stepBack(const std::vector<Pair>& pairs, const glm::dvec3& direction, double gap, DropResult& result) {
   const double contact = result.travel;
+  LmdScratch scratch;
   for (double back = gap;; back *= 2.0) {
     const double travel = contact - back;
     result.travel = travel > kNoWay * gap ? travel : 0.0;
@@ -136,8 +153,14 @@ void stepBack(const std::vector<Pair>& pairs, const glm::dvec3& direction, doubl
     result.gap = contact - result.travel;
     // Nothing meets at the start, as checked before.
     if (result.travel == 0.0) return;
-    const auto meet = [&](const Pair& pair) { return doMeet(pair, result.shift); };
-    if (std::none_of(pairs.begin(), pairs.end(), meet)) return;
+    const auto isInTheWay = [&](const Pair& pair) {
+      if (doMeet(pair, result.shift)) return true;
+      if (!isTooNear(pair, result.shift, gap, scratch)) return false;
+      // Going back does not lead away from what stood so near at the start, beside the way.
+      const bool isBeside = pair.moving->id != result.moved || pair.fixed->id != result.against;
+      return !isBeside || !isTooNear(pair, glm::dvec3(0.0), gap, scratch);
+    };
+    if (std::none_of(pairs.begin(), pairs.end(), isInTheWay)) return;
   }
 }
 

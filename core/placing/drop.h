@@ -15,7 +15,7 @@ namespace nearfit {
 struct DropOptions {
   /// In the world frame; any length but 0.
   glm::dvec3 direction{0.0, 0.0, -1.0};
-  /// Distance to leave before contact, along the direction [m]; finite, >= 0. 0: dropGap() of
+  /// Min distance to leave before contact, along the direction [m]; finite, >= 0. 0: dropGap() of
   /// the moved parts.
   double gap = 0.0;
 };
@@ -43,8 +43,9 @@ double dropGap(double size) noexcept;
 /// visible part: drop to contact.
 ///
 /// The travel is exact up to rounding (straight_contact.h) and free of contact before its end, which is `gap`
-/// short of contact along the direction. Exact predicates verify that no two bodies meet at the end; if
-/// rounding is coarser than the gap, more is left. Parts already within the gap do not move, so dropping
+/// short of contact along the direction. Exact predicates verify that no two bodies meet at the end, and their distance
+/// is verified to be above the deviation of their flats (NormalConeTree::deviation()), so that the part is felt when it is
+/// taken in hand; where the gap is too small for that, or rounding is coarser than it, more is left. Parts already within the gap do not move, so dropping
 /// again changes nothing.
 ///
 /// A part that is moved by itself goes along what its joints allow of the direction.

@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -21,6 +22,8 @@ MinDistance minDistanceOf(const ServoSnapshot& snapshot) noexcept {
     if (std::ranges::find(overlapping, shown.other) == overlapping.end())
       rest = std::min(rest, shown.lmd.distance);
   }
+  // Without a minimum of others, the snapshot's bound is that of a part that is overlapped.
+  if (std::isinf(rest)) return {rest, false, true};
   // A minimum that is missing is no nearer than the snapshot's distance.
   const bool isMissing =
       snapshot.isTruncated || snapshot.isDistanceBound || snapshot.storedLmds < snapshot.lmdCount;
@@ -29,6 +32,8 @@ MinDistance minDistanceOf(const ServoSnapshot& snapshot) noexcept {
 }
 
 QString formatMinDistance(const MinDistance& shown) {
+  if (shown.isOfRest && !std::isfinite(shown.distance))
+    return QCoreApplication::translate("format", "– (overlapping)");
   const QString distance = formatDistance(shown.distance, shown.isBound);
   return shown.isOfRest ? QCoreApplication::translate("format", "%1 to others").arg(distance) : distance;
 }

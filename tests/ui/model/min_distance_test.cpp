@@ -36,6 +36,7 @@ class MinDistanceTest : public QObject {
  private slots:
   void partsThatAreOverlappedAreLeftOutAndItSaysSo();
   void aMissingMinimumLeavesABound();
+  void aBoundOfThePartThatIsOverlappedIsNoneToOthers();
   void whereOverlapIsNotKnownNoDistanceOfSurfacesIsShown();
 };
 
@@ -43,9 +44,10 @@ void MinDistanceTest::partsThatAreOverlappedAreLeftOutAndItSaysSo() {
   const auto snapshot = overlappedSnapshot();
   QCOMPARE(shownOf(*snapshot), QStringLiteral("9.40 mm to others"));
   snapshot->storedLmds = snapshot->lmdCount = 1;
-  QCOMPARE(shownOf(*snapshot), QStringLiteral("– to others"));
+  QCOMPARE(shownOf(*snapshot), QStringLiteral("– (overlapping)"));
   snapshot->overlappingCount = ServoSnapshot::kMaxOverlapping + 1;
   QVERIFY(std::isnan(ui::minDistanceOf(*snapshot).distance));
+  QCOMPARE(shownOf(*snapshot), QStringLiteral("– (overlapping)"));
   snapshot->overlappingCount = 0;
   QCOMPARE(shownOf(*snapshot), QStringLiteral("0.20 mm"));
 }
@@ -60,6 +62,17 @@ void MinDistanceTest::aMissingMinimumLeavesABound() {
   QCOMPARE(shownOf(*snapshot), QStringLiteral("at least 5.00 mm to others"));
   snapshot->overlappingCount = 0;
   QCOMPARE(shownOf(*snapshot), QStringLiteral("at least 5.00 mm"));
+}
+
+/// A nut through its only bolt was shown "at least 0.39 mm to others".
+void MinDistanceTest::aBoundOfThePartThatIsOverlappedIsNoneToOthers() {
+  const auto snapshot = overlappedSnapshot();
+  snapshot->storedLmds = 1;
+  snapshot->lmdCount = 4000;
+  snapshot->isTruncated = snapshot->isDistanceBound = true;
+  QCOMPARE(shownOf(*snapshot), QStringLiteral("– (overlapping)"));
+  snapshot->storedLmds = snapshot->lmdCount = 0;
+  QCOMPARE(shownOf(*snapshot), QStringLiteral("– (overlapping)"));
 }
 
 /// Springs let parts pass through each other.
