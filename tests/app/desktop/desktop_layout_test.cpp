@@ -287,23 +287,20 @@ void DesktopLayoutTest::aPanelOpensWithRoomForItsButtons() {
   run.close();
 }
 
-/// A panel gets its height once, not whenever it is shown.
+/// A panel gets its height once, not whenever it is asked for.
 void DesktopLayoutTest::aHeightThatTheUserGivesAPanelStays() {
   Run run;
   QDockWidget* dock = run.dock("sceneCheckDock");
   const auto* scroll = dock->findChild<QScrollArea*>(QStringLiteral("sceneCheckScroll"));
-  const auto toggle = [&] { chooseCommand(run.window(), dock->toggleViewAction()); };
-  toggle();
+  chooseCommand(run.window(), dock->toggleViewAction());
   QTRY_VERIFY(dock->isVisible() && scroll->widget()->height() >= scroll->widget()->sizeHint().height());
   const int before = dock->height();
   run.window().resizeDocks({dock}, {before - 60}, Qt::Vertical);
   QTRY_COMPARE(dock->height(), before - 60);
   // The table gives way, so that nothing else scrolls.
   QTRY_COMPARE(scroll->verticalScrollBar()->maximum(), 0);
-  toggle();
-  QTRY_VERIFY(!dock->isVisible());
-  toggle();
-  QTRY_VERIFY(dock->isVisible());
+  // Asks for the panel that is shown already.
+  run.choose("checkScene");
   QTest::qWait(100);
   QCOMPARE(dock->height(), before - 60);
   run.close();
