@@ -58,6 +58,7 @@ Application::Application(std::unique_ptr<DeviceSource> devices)
   wire();
   watcher_.start();
   window_.setDemoScene(resourceFile(QStringLiteral("demo/piston.nearfit")));
+  window_.setGuide(resourceFile(QStringLiteral("docs/guide.md")));
   window_.setAboutText(
       tr("<h3>Nearfit %1</h3><p>Virtual prototyping by touch: feel one part against the others "
          "before any of them exists.</p><p>Method: Johnson and Willemsen, <i>Six degree-of-freedom "

@@ -338,6 +338,10 @@ void MainWindow::setDemoScene(const QString& file) {
   files_->setDemoScene(file);
 }
 
+void MainWindow::setGuide(const QString& file) {
+  shell_->setGuide(file);
+}
+
 bool MainWindow::openDemo() {
   return files_->showDemo();
 }

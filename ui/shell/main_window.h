@@ -71,6 +71,8 @@ class MainWindow : public QMainWindow {
   void setFailureSink(std::function<void(const Failure&)> sink);
   /// Sets the scene that *Open demo* opens; empty disables the action.
   void setDemoScene(const QString& file);
+  /// Sets the first page of the user's guide; empty disables the action.
+  void setGuide(const QString& file);
   /// Opens the demo as an unnamed scene. False if there is none, the user cancels, or something is loading.
   bool openDemo();
   /// Starts the tour of the window; with an empty scene it opens the demo first.

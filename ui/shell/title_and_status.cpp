@@ -208,7 +208,7 @@ StatusReadout::StatusReadout(const HandState& hand, QStatusBar* bar) : QObject(b
   row_ = row;
   rate_ = row->addLabel(QStringLiteral("statusRate"), tr("Servo 1000 Hz"));
   lateness_ = row->addLabel(QStringLiteral("statusLateness"), tr("Late 0.00 ms (p99)"));
-  minima_ = row->addLabel(QStringLiteral("statusMinima"), tr("LMDs 0,000"));
+  minima_ = row->addLabel(QStringLiteral("statusMinima"), tr("Minima 0,000"));
   distance_ = row->addLabel(QStringLiteral("statusDistance"), tr("Min distance 0000 mm"));
   bar->addPermanentWidget(row);
   bar->installEventFilter(this);
@@ -237,7 +237,7 @@ void StatusReadout::showStatus(const ServoStatus& status) {
 void StatusReadout::showSnapshot(const ServoSnapshot& snapshot, bool isFelt) {
   setPresent(*minima_, isFelt);
   setPresent(*distance_, isFelt);
-  showText(*minima_, tr("LMDs %1").arg(formatMinima(snapshot.lmdCount, snapshot.isTruncated)));
+  showText(*minima_, tr("Minima %1").arg(formatMinima(snapshot.lmdCount, snapshot.isTruncated)));
   showText(*distance_, tr("Min distance %1").arg(formatMinDistance(minDistanceOf(snapshot))));
   setIdle(isServoOff_, false);
 }
@@ -245,7 +245,7 @@ void StatusReadout::showSnapshot(const ServoSnapshot& snapshot, bool isFelt) {
 void StatusReadout::clearSnapshot() {
   setPresent(*minima_, true);
   setPresent(*distance_, true);
-  showText(*minima_, tr("LMDs –"));
+  showText(*minima_, tr("Minima –"));
   showText(*distance_, tr("Min distance –"));
   setIdle(isServoOff_, true);
 }

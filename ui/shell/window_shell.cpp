@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "ui/files/file_commands.h"
+#include "ui/shell/guide_dialog.h"
 #include "ui/shell/shortcuts_dialog.h"
 #include "ui/shell/tour.h"
 #include "ui/shell/window_layout.h"
@@ -119,6 +120,9 @@ void WindowShell::addHelp(QMenu* help) {
   connect(about, &QAction::triggered, this,
           [this] { QMessageBox::about(window_, tr("About Nearfit"), aboutText_); });
   help->addAction(about);
+  guideAction_ = addAction(help, "guide", tr("User &guide"), tr("Read what each command does, task by task"));
+  connect(guideAction_, &QAction::triggered, this, &WindowShell::showGuide);
+  setGuide({});
   tourAction_ =
       addAction(help, "tour", tr("Short &tour"), tr("Explain the panels of this window, one by one"));
   tourAction_->setIcon(icon(QStringLiteral("about")));
@@ -127,6 +131,18 @@ void WindowShell::addHelp(QMenu* help) {
                             tr("List and search all commands and their keys"));
   keys->setShortcuts({QKeySequence(Qt::Key_F1), QKeySequence(QStringLiteral("Ctrl+/"))});
   connect(keys, &QAction::triggered, shortcuts_, &ShortcutsDialog::open);
+}
+
+void WindowShell::setGuide(const QString& file) {
+  guideFile_ = file;
+  guideAction_->setEnabled(!file.isEmpty());
+}
+
+void WindowShell::showGuide() {
+  if (guide_ == nullptr) guide_ = new GuideDialog(guideFile_, window_);
+  guide_->show();
+  guide_->raise();
+  guide_->activateWindow();
 }
 
 void WindowShell::settle() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <QPointer>
 #include <QString>
 
 class QAction;
@@ -10,6 +11,7 @@ class QMenu;
 namespace nearfit::ui {
 
 class FileCommands;
+class GuideDialog;
 class ShortcutsDialog;
 class Tour;
 class WindowLayout;
@@ -34,6 +36,8 @@ class WindowShell : public QObject {
   WindowLayout& layout() noexcept { return *layout_; }
   /// Sets the text of the About box.
   void setAboutText(const QString& text) { aboutText_ = text; }
+  /// Sets the first page of the user's guide; empty disables the action.
+  void setGuide(const QString& file);
 
  public slots:
   /// Starts the tour of the window; with an empty scene it opens the demo first.
@@ -45,14 +49,17 @@ class WindowShell : public QObject {
   void addThemes(QMenu* view);
   void addHelp(QMenu* help);
   void showTour();
+  void showGuide();
 
   QMainWindow* window_;
   FileCommands& files_;
-  QString aboutText_;
+  QString aboutText_, guideFile_;
   WindowLayout* layout_ = nullptr;  ///< Null until settle().
   ShortcutsDialog* shortcuts_;
   Tour* tour_;
   QAction* tourAction_;
+  QAction* guideAction_;
+  QPointer<GuideDialog> guide_;
 };
 
 }  // namespace nearfit::ui

@@ -13,6 +13,8 @@ namespace {
 /// Colours that Fusion derives frames from in the dark theme: of check boxes and radio
 /// buttons, and of fields.
 constexpr QRgb kFrameInDark = 0xffb4c0cc, kFieldFrameInDark = 0xff7d8995;
+/// Of buttons that are checked.
+constexpr QRgb kChecked = 0xffbcd8f4, kCheckedInDark = 0xff2b5a8c;
 
 /// Returns a palette with another colour for frames. Equal arguments give the same palette, as Fusion
 /// caches pixmaps by its key.
@@ -67,6 +69,12 @@ void WindowStyle::drawComplexControl(ComplexControl control, const QStyleOptionC
 
 void WindowStyle::drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
                               const QWidget* widget) const {
+  const auto* button = qstyleoption_cast<const QStyleOptionButton*>(option);
+  if (element == CE_PushButtonBevel && button != nullptr && button->state.testFlag(State_On)) {
+    QStyleOptionButton checked = *button;
+    checked.palette.setColor(QPalette::Button, isThemeDark() ? kCheckedInDark : kChecked);
+    return QProxyStyle::drawControl(element, &checked, painter, widget);
+  }
   const auto* box = qstyleoption_cast<const QStyleOptionComboBox*>(option);
   if (element != CE_ComboBoxLabel || box == nullptr || box->editable)
     return QProxyStyle::drawControl(element, option, painter, widget);
@@ -84,6 +92,11 @@ QIcon WindowStyle::standardIcon(StandardPixmap which, const QStyleOption* option
   // Fusion's is black in both themes.
   return which == SP_ToolBarHorizontalExtensionButton ? icon(QStringLiteral("more"))
                                                       : QProxyStyle::standardIcon(which, option, widget);
+}
+
+int WindowStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                           QStyleHintReturn* result) const {
+  return hint == SH_EtchDisabledText ? 0 : QProxyStyle::styleHint(hint, option, widget, result);
 }
 
 int WindowStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const {

@@ -33,7 +33,7 @@ struct ReportSide {
   PictureSide side;
   const char* caption;
 };
-constexpr std::array kReportSides{
+inline constexpr std::array kReportSides{
     ReportSide{PictureSide::Isometric, "Isometric: from the right, the front and above."},
     ReportSide{PictureSide::Front, "Front: along +y; x to the right, z up."},
     ReportSide{PictureSide::Right, "Right: along -x; y to the right, z up."},

@@ -502,7 +502,7 @@ void DesktopGizmoTest::aShiftedDragFromAHandleLeadsTheHandToo() {
   Bench b;
   b.driver.startWith(ui::Hand::Manual);
   // The hand can be dragged from the first tick that is shown.
-  QTRY_COMPARE(b.driver.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_COMPARE(b.driver.text("statusMinima"), QStringLiteral("Minima 1"));
   QTRY_VERIFY(b.overlay().picture().has_value());
   const QPoint from = b.handle(GizmoGrip::MoveZ);
   b.moveTo(from);

@@ -99,7 +99,7 @@ struct Gaps : GlyphsFixture {
                     boxMesh(glm::dvec3(0.01, 0.04, 0.02), glm::dvec3(0.023, 0.0, 0.035)))});
     QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{4});
     feel();
-    QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 3"));
+    QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("Minima 3"));
     selectNothing();
     d.choose("minima");
     without = d.picture();
@@ -182,7 +182,7 @@ void DesktopGlyphsTest::eachSwitchTakesAwayWhatItNamesAndBringsItBack() {
 void DesktopGlyphsTest::forceContactAndHandAreThereOnlyWhileItIsPressed() {
   GlyphsFixture f;
   f.feel();
-  QTRY_COMPARE(f.d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_COMPARE(f.d.text("statusMinima"), QStringLiteral("Minima 1"));
   f.selectNothing();
   const QImage apart = f.settledPicture();
   f.press();
@@ -324,7 +324,7 @@ void DesktopGlyphsTest::theLegendIsDraggedAndHiddenAndThatIsRemembered() {
   GlyphsFixture again;
   again.feel();
   auto* legend = again.d.widget<QWidget>("colourLegend");
-  QTRY_COMPARE(again.d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_COMPARE(again.d.text("statusMinima"), QStringLiteral("Minima 1"));
   QVERIFY(!legend->isVisible());
   again.d.choose("legend");
   QTRY_VERIFY(legend->isVisible());

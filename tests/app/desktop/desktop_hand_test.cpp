@@ -43,7 +43,7 @@ struct ByMouse {
       QTest::keyClick(box, Qt::Key_Down);
     QTest::mouseClick(d.widget<QPushButton>("startStop"), Qt::LeftButton);
     QTRY_VERIFY(d.application.servo().isRunning());
-    QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+    QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("Minima 1"));
     hand = d.part("moving").worldFromPart;
   }
   void send(QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers keys) {
@@ -206,7 +206,7 @@ void DesktopHandTest::feelPutsTheKeysIntoTheViewWhichShowsIt() {
   m.d.window().activateWindow();
   QTRY_COMPARE(QApplication::focusWidget(), static_cast<QWidget*>(&m.view()));
   QVERIFY(isFramed());
-  QTRY_COMPARE(m.d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_COMPARE(m.d.text("statusMinima"), QStringLiteral("Minima 1"));
   QTest::keyClick(QApplication::focusWidget(), Qt::Key_PageUp);
   QTRY_VERIFY(m.hand.translation.z > 0.0);
   QVERIFY(m.d.window().selection().parts() == std::vector{m.d.partId("fixed")});

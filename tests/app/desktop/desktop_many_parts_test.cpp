@@ -129,7 +129,7 @@ void DesktopManyPartsTest::thePartInHandMeetsItsNeighboursAlone() {
   QVERIFY(d.session().scene().movingPart() == middle);
   d.startWith(ui::Hand::Manual);
   // Nothing is within the cutoff of 10 mm until it goes to the one above.
-  QTRY_COMPARE_WITH_TIMEOUT(d.text("statusMinima"), QStringLiteral("LMDs 0"), 30'000);
+  QTRY_COMPARE_WITH_TIMEOUT(d.text("statusMinima"), QStringLiteral("Minima 0"), 30'000);
   d.type<QDoubleSpinBox>("positionZ", "+= 15 mm");
   QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Min distance 5.00 mm"));
   d.type<QDoubleSpinBox>("positionZ", "+= 15 mm");

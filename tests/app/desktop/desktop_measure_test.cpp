@@ -174,7 +174,7 @@ void DesktopMeasureTest::theMeasureFollowsThePartInHand() {
     QTest::keyClick(hands, Qt::Key_Down);
   QTest::mouseClick(d.widget<QPushButton>("startStop"), Qt::LeftButton);
   QTRY_VERIFY(d.application.servo().isRunning());
-  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("Minima 1"));
   QVERIFY(d.action("measure")->isChecked());
   for (int i = 0; i < 3; ++i)
     pressInView(d, Qt::Key_PageUp);

@@ -285,7 +285,7 @@ void DesktopProxyTest::whatWasFeltLastStaysInGreyUntilTheSceneChanges() {
   const auto* distance = d.widget<QLabel>("statusDistance");
   QVERIFY(!distance->isEnabled());
   QCOMPARE(distance->text(), QStringLiteral("Min distance ") + d.text("distance"));
-  QCOMPARE(d.text("statusMinima"), QStringLiteral("LMDs ") + d.text("minima"));
+  QCOMPARE(d.text("statusMinima"), QStringLiteral("Minima ") + d.text("minima"));
   QVERIFY(d.widget<QWidget>("colourLegend")->isVisible());
   d.type<QDoubleSpinBox>("positionX", "1");
   QCOMPARE(d.text("lead"), QStringLiteral("–"));

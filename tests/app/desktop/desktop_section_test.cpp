@@ -138,7 +138,7 @@ void DesktopSectionTest::theCutFollowsPartsThatMove() {
     QTest::keyClick(hands, Qt::Key_Down);
   QTest::mouseClick(cut.d.widget<QPushButton>("startStop"), Qt::LeftButton);
   QTRY_VERIFY(cut.d.application.servo().isRunning());
-  QTRY_COMPARE(cut.d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_COMPARE(cut.d.text("statusMinima"), QStringLiteral("Minima 1"));
   for (int i = 0; i < 12; ++i)
     QTest::keyClick(&cut.view(), Qt::Key_Right);
   QTRY_VERIFY(cut.d.felt && cut.d.felt->translation.x > 0.026);

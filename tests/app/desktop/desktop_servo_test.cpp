@@ -128,7 +128,7 @@ void DesktopServoTest::showsTheOneMinimumBetweenTwoFaces() {
   useSprings(d);
   QCOMPARE(d.text("statusRate"), QStringLiteral("Servo off"));
   startWith(d, ui::Hand::Manual);
-  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("Minima 1"));
   QCOMPARE(d.text("statusDistance"), QStringLiteral("Min distance 5.00 mm"));
   // 200 N/m over the 5 mm that are left to the cutoff of 10 mm, once the force has been let in.
   QTRY_COMPARE(d.text("force"), QStringLiteral("1.00 N"));
@@ -242,7 +242,7 @@ void DesktopServoTest::stoppingIsOneStepOfUndo() {
   d.clickPart(1, ui::PartsModel::Name);
   d.type<QDoubleSpinBox>("positionX", "3");
   d.type<QDoubleSpinBox>("positionX", "4");
-  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("Minima 1"));
   QTRY_VERIFY(d.isFeltAtX(0.004));
   pressShortcut(d, Qt::Key_F6);
   QCOMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Feel moving"));
@@ -278,15 +278,15 @@ void DesktopServoTest::partsComeAndGoWhileItRuns() {
   DesktopDriver d;
   d.addCubes();
   startWith(d, ui::Hand::Manual);
-  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("Minima 1"));
   const auto ceiling = writeOff(d.folder.path() / "ceiling.off",
                                 boxMesh(glm::dvec3(0.04, 0.04, 0.01), glm::dvec3(0, 0, 0.052)));
   // Its lower face is 2 mm above the moving cube.
   d.add({ceiling});
-  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 2"));
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("Minima 2"));
   QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Min distance 2.00 mm"));
   d.clickPart(2, ui::PartsModel::Visible);
-  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("Minima 1"));
   QVERIFY(d.application.servo().isRunning());
 }
 
@@ -315,7 +315,7 @@ void DesktopServoTest::restingServoDrawsNothing() {
   DesktopDriver d;
   d.addCubes();
   startWith(d, ui::Hand::Manual);
-  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("Minima 1"));
   QVERIFY(d.comesToRest());
 }
 

@@ -6,12 +6,15 @@
 #include <QDoubleSpinBox>
 #include <QGroupBox>
 #include <QImage>
+#include <QListWidget>
 #include <QMenuBar>
 #include <QPainter>
 #include <QPixmapCache>
 #include <QScrollArea>
 #include <QSet>
 #include <QTabBar>
+#include <QTextBlock>
+#include <QTextBrowser>
 #include <QToolBar>
 #include <QToolButton>
 #include <QTreeView>
@@ -128,6 +131,7 @@ class DesktopWindowShellTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void theGuideIsReadInTheWindow();
   void cleanup() { ui::setColourScheme(ui::ColourScheme::Light); }
   void everyWidgetThatTakesTheFocusHasAName();
   void everyActionHasATooltipAndNoTwoShareAShortcut();
@@ -598,7 +602,7 @@ void DesktopWindowShellTest::buttonsOfTheStatusBarStayWhereTheyAre() {
   const auto* numbers = d.widget<QLabel>("statusDistance");
   QVERIFY(numbers->mapTo(&d.window(), QPoint()).x() < before.first().x());
   d.startWith(ui::Hand::Manual);
-  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("Minima 1"));
   QTRY_VERIFY(d.text("statusRate").endsWith(QStringLiteral(" Hz")));
   QTest::qWait(50);
   QCOMPARE(places(), before);
@@ -629,6 +633,38 @@ void DesktopWindowShellTest::toolbarsFitANarrowWindow() {
   QCOMPARE(views->defaultAction(), d.action("viewIso"));
   pressShortcut(d, Qt::Key_3);
   QCOMPARE(views->defaultAction(), d.action("viewTop"));
+}
+
+/// Help led to no guide.
+void DesktopWindowShellTest::theGuideIsReadInTheWindow() {
+  DesktopDriver d;
+  d.choose("guide");
+  auto* dialog = d.window().findChild<QDialog*>(QStringLiteral("guideDialog"));
+  QVERIFY(dialog != nullptr && dialog->isVisible());
+  auto* page = dialog->findChild<QTextBrowser*>(QStringLiteral("guidePage"));
+  const auto* headings = dialog->findChild<QListWidget*>(QStringLiteral("guideHeadings"));
+  const auto titles = [&] {
+    QStringList all;
+    for (int i = 0; i < headings->count(); ++i)
+      all << headings->item(i)->text().trimmed();
+    return all;
+  };
+  QVERIFY(titles().contains(QStringLiteral("Open and add parts")));
+  // Pictures lie beside the page, and fit it.
+  QTextCursor picture(page->document());
+  while (!picture.charFormat().isImageFormat() && !picture.atEnd())
+    picture.movePosition(QTextCursor::NextCharacter);
+  QVERIFY(!picture.atEnd());
+  const QUrl source(picture.charFormat().toImageFormat().name());
+  const auto image = page->loadResource(QTextDocument::ImageResource, source).value<QImage>();
+  QVERIFY(!image.isNull() && image.width() < page->width());
+  keepPictures(*dialog, QStringLiteral("guide"));
+  emit page->anchorClicked(QUrl(QStringLiteral("cli.md#environment-variables")));
+  QVERIFY(titles().contains(QStringLiteral("Environment variables")));
+  QTRY_VERIFY(page->textCursor().block().text() == QStringLiteral("Environment variables"));
+  QTest::mouseClick(dialog->findChild<QPushButton*>(QStringLiteral("guideBack")), Qt::LeftButton);
+  QTRY_VERIFY(titles().contains(QStringLiteral("Open and add parts")));
+  dialog->close();
 }
 
 NEARFIT_QT_SUITE(DesktopWindowShellTest, runDesktopTest<DesktopWindowShellTest>)

@@ -1,4 +1,6 @@
 // Bodies that are meshed at the same time share nothing that OpenCASCADE writes to, and are as good as those meshed alone.
+#include "app/import/meshing_plan.h"
+
 #include <array>
 #include <vector>
 
@@ -15,7 +17,6 @@
 #include <gp_Vec.hxx>
 #include <gtest/gtest.h>
 
-#include "app/import/meshing_plan.h"
 #include "app/import/solid_bodies.h"
 #include "core/import/cad_document.h"
 #include "tests/app/import/import_fixture.h"
@@ -60,7 +61,8 @@ TEST(MeshingPlan, BodiesThatShareAnEdgeOrAFaceAreOneGroup) {
 
 TEST(MeshingPlan, OnlyBodiesWithMostOfTheFacesHaveAllThreads) {
   const std::vector<TopoDS_Shape> faces = facesOf(box(0.0));
-  const std::vector<Body> bodies{{{facesOf(box(1.0))[0]}}, {{box(2.0)}}, {{facesOf(box(3.0))[0]}}, {{faces[0]}}};
+  const std::vector<Body> bodies{
+      {{facesOf(box(1.0))[0]}}, {{box(2.0)}}, {{facesOf(box(3.0))[0]}}, {{faces[0]}}};
   const MeshingPlan plan = planFor(bodies, 2);
   EXPECT_THAT(plan.large, ElementsAre(ElementsAre(1U)));
   EXPECT_THAT(plan.small, ElementsAre(ElementsAre(0U), ElementsAre(2U), ElementsAre(3U)));
