@@ -8,7 +8,6 @@
 #include <QScrollArea>
 #include <QStatusBar>
 #include <QTimer>
-#include <QToolButton>
 #include <optional>
 #include <utility>
 
@@ -41,6 +40,7 @@
 #include "ui/panels/suggest/path_suggestion.h"
 #include "ui/panels/verdict/scene_check_panel.h"
 #include "ui/panels/view/view_actions.h"
+#include "ui/shell/dock_place.h"
 #include "ui/shell/main_menus.h"
 #include "ui/shell/title_and_status.h"
 #include "ui/shell/view_focus_frame.h"
@@ -63,20 +63,6 @@
 #include "ui/widgets/view_bar.h"
 
 namespace nearfit::ui {
-namespace {
-
-/// Brings a dock that was just shown before the other tabs of its place.
-void bringToFront(QDockWidget& dock) {
-  // Its tab comes with the layout.
-  QTimer::singleShot(0, &dock, [&dock] {
-    // A dock that was raised last may be behind another tab, and raising it again alone does nothing.
-    dock.lower();
-    dock.raise();
-  });
-}
-
-}  // namespace
-
 template <class... Sources>
 void MainWindow::listenTo(const Sources&... sources) {
   const auto listen = [this]<class Source>(const Source& source) {
@@ -231,6 +217,9 @@ void MainWindow::makeCheckPanel(QDockWidget& neighbour) {
       addDock("checkDock", tr("Check"), makeScrollPane(panel, "checkScroll"), Qt::BottomDockWidgetArea);
   tabifyDockWidget(&neighbour, dock);
   dock->hide();
+  connect(dock->toggleViewAction(), &QAction::triggered, dock, [dock](bool isShown) {
+    if (isShown) bringToFront(*dock);
+  });
   connect(units_, &UnitMenu::unitChanged, panel, &CheckPanel::refresh);
   connect(panel, &CheckPanel::repairRequested, files_, &FileCommands::repair);
   connect(files_, &FileCommands::repaired, panel, &CheckPanel::showRepair);
@@ -261,10 +250,7 @@ void MainWindow::makeSceneCheckPanel(QDockWidget& neighbour) {
 
 void MainWindow::addDockButton(QDockWidget& dock, const QString& toolTip) {
   dock.toggleViewAction()->setToolTip(toolTip);
-  auto* button = new QToolButton(statusBar());
-  button->setObjectName(dock.objectName() + QStringLiteral("Button"));
-  button->setDefaultAction(dock.toggleViewAction());
-  button->setAutoRaise(true);
+  auto* button = new DockButton(dock, statusBar());
   // Before those that were added earlier, and after the numbers, whose widths change.
   constexpr int kAfterNumbers = 1;
   statusBar()->insertPermanentWidget(kAfterNumbers, button);

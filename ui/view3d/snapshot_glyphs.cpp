@@ -41,6 +41,11 @@ void SnapshotGlyphs::showNumbers(const ServoSnapshot& snapshot) {
   placeLegend();
 }
 
+void SnapshotGlyphs::hideNumbers() {
+  hasNumbers_ = false;
+  legend_->hide();
+}
+
 void SnapshotGlyphs::setPast(bool isPast) {
   const double share = isPast ? kTrailOpacity : 1.0;
   minima_.setOpacity(share);
@@ -55,8 +60,7 @@ void SnapshotGlyphs::clear() {
   arrows_.clear();
   contacts_.clear();
   hand_.clear();
-  hasNumbers_ = false;
-  legend_->hide();
+  hideNumbers();
 }
 
 void SnapshotGlyphs::placeLegend() {

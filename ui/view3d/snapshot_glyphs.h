@@ -32,6 +32,8 @@ class SnapshotGlyphs {
   /// Shows the legend with the snapshot's numbers. Call just before the glyphs are drawn, or the numbers
   /// would be ahead of them.
   void showNumbers(const ServoSnapshot& snapshot);
+  /// Hides the legend: there are no numbers.
+  void hideNumbers();
   /// Draws all of it paler: it is past.
   void setPast(bool isPast);
   void clear();

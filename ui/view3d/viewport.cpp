@@ -154,7 +154,7 @@ void Viewport::showScale() {
 void Viewport::prepareRender() {
   // Nothing else tells the marker the window's first size.
   marker_->SquareResize();
-  if (hasNewNumbers_ && shown_ != nullptr) glyphs_->showNumbers(*shown_);
+  if (hasNewNumbers_ && shown_ != nullptr) isFelt_ ? glyphs_->showNumbers(*shown_) : glyphs_->hideNumbers();
   parts_.updateCut();
   glyphs_->hand().setCut(parts_.cutOfMoving());
   adjustClipping();
@@ -237,8 +237,17 @@ void Viewport::placeParts(const std::vector<PartId>& parts) {
 }
 
 void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
-  const bool isSame = shown_ != nullptr && !isPast_ && looksTheSame(*shown_, snapshot) &&
+  show(snapshot, true);
+}
+
+void Viewport::showGhost(const ServoSnapshot& ghost) {
+  show(ghost, false);
+}
+
+void Viewport::show(const ServoSnapshot& snapshot, bool isFelt) {
+  const bool isSame = shown_ != nullptr && !isPast_ && isFelt == isFelt_ && looksTheSame(*shown_, snapshot) &&
                       !glyphs_->minima().isDue(snapshot.time);
+  isFelt_ = isFelt;
   if (shown_ == nullptr) shown_ = std::make_unique<ServoSnapshot>();
   *shown_ = snapshot;
   if (!isSame) draw(snapshot);
@@ -259,7 +268,7 @@ void Viewport::draw(const ServoSnapshot& snapshot) {
 }
 
 void Viewport::keepSnapshot() {
-  if (shown_ == nullptr) return;
+  if (shown_ == nullptr || !isFelt_) return;
   isPast_ = true;
   detail_->setFeeling(false);
   glyphs_->setPast(true);

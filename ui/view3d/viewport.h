@@ -52,7 +52,10 @@ class Viewport : public QVTKOpenGLNativeWidget {
   /// Shows the hand's ghost, minima, contacts, wrench and overlapping parts; ShownPoses moves the part in hand.
   /// Draws nothing if none of these changed.
   void showSnapshot(const ServoSnapshot& snapshot);
-  /// Draws the snapshot paler from now on: it is past, and nothing is felt any more. No-op without one.
+  /// Shows a ghost that nobody feels, in the same way but without the legend: its numbers would be of nothing.
+  void showGhost(const ServoSnapshot& ghost);
+  /// Draws the snapshot paler from now on: it is past, and nothing is felt any more. No-op without one, and for a ghost
+  /// that nobody felt.
   void keepSnapshot();
   /// Removes the snapshot and shows the scene alone.
   void clearSnapshot();
@@ -159,7 +162,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
   /// Bounds of everything that the next picture shows, in the world [m].
   vtkBoundingBox drawnBounds();
   void countPicture();
-  /// Draws what showSnapshot() says, from the next picture on.
+  void show(const ServoSnapshot& snapshot, bool isFelt);
+  /// Draws what show() got, from the next picture on.
   void draw(const ServoSnapshot& snapshot);
   void showScale();
   void showMovingPart();
@@ -184,6 +188,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   bool hasNewNumbers_ = false;  ///< shown_ has not been drawn yet.
   double movingSize_ = 0.0;     ///< Diagonal of what the hand moves [m].
   bool isPast_ = false;         ///< shown_ is no longer felt.
+  bool isFelt_ = true;          ///< False: shown_ is a ghost that nobody feels or felt.
   Scene scene_;
   std::set<PartId> known_;  ///< Parts shown so far, including ones that have left.
   QPoint pressedAt_;

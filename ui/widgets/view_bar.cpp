@@ -47,6 +47,15 @@ void ViewBar::keyPressEvent(QKeyEvent* event) {
   event->accept();
 }
 
+void ViewBar::hideEvent(QHideEvent* event) {
+  QFrame::hideEvent(event);
+  // A bar that goes with its window, which is minimised or closed, keeps its place.
+  if (!isHidden()) return;
+  // Qt would give the keys to whatever comes next by Tab: a button of the status bar.
+  const QWidget* focused = window()->focusWidget();
+  if (focused != nullptr && isAncestorOf(focused)) view_->setFocus();
+}
+
 void ViewBar::place() {
   if (!isVisible()) return;
   layout()->activate();

@@ -17,7 +17,8 @@ class ViewArea : public QWidget {
   void add(QWidget* bar);
 };
 
-/// Base of a tool's bar: prompts and inputs in a strip below the view. Keys that the bar has no use for go to the view.
+/// Base of a tool's bar: prompts and inputs in a strip below the view. Keys that the bar has no use for go to the view, and
+/// so does the focus when the bar is hidden.
 class ViewBar : public QFrame {
   Q_OBJECT
 
@@ -28,6 +29,7 @@ class ViewBar : public QFrame {
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
   /// Gives the bar the height of its new content at once, so that the view does not change later, between two clicks.
   void place();
 

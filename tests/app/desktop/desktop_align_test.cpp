@@ -35,6 +35,7 @@ class DesktopAlignTest : public QObject {
   void lockedPartsDoNotDrop();
   void selectedPartsGoTogetherAsOneStep();
   void aSeeThroughPartIsTheTargetWhereOnlyThePartThatMovesIsBehindIt();
+  void endedByItsButtonsItGivesTheKeysToTheView();
 
  private:
   static void click(DesktopDriver& d, const glm::dvec3& point) { ViewPointer(d).click(point); }
@@ -371,6 +372,28 @@ void DesktopAlignTest::aSeeThroughPartIsTheTargetWhereOnlyThePartThatMovesIsBehi
   QVERIFY(d.text("alignPrompt").contains(QStringLiteral("Click the target")));
   hover(d, onMoving);
   QTRY_COMPARE(d.text("alignHint"), QStringLiteral("Flat face of fixed"));
+}
+
+/// As the measuring bar did, it gave them to the status bar.
+void DesktopAlignTest::endedByItsButtonsItGivesTheKeysToTheView() {
+  DesktopDriver d;
+  begin(d);
+  const auto press = [&d](const char* name) {
+    auto* button = d.widget<QPushButton>(name);
+    button->setFocus();
+    QVERIFY(button->hasFocus());
+    QTest::mouseClick(button, Qt::LeftButton);
+    QVERIFY(!d.widget<QWidget>("alignBar")->isVisible());
+    QVERIFY(d.window().viewport().hasFocus());
+  };
+  press("alignCancel");
+  pressShortcut(d, Qt::Key_A);
+  click(d, {0.003, kMovingFront, 0.036});
+  click(d, {-0.01, kFixedFront, 0.005});
+  QTest::mouseClick(d.widget<QCheckBox>("alignKeep"), Qt::LeftButton, {}, QPoint(8, 8));
+  QVERIFY(d.widget<QCheckBox>("alignKeep")->isChecked());
+  press("alignApply");
+  QCOMPARE(d.session().scene().joints().size(), std::size_t{1});
 }
 
 NEARFIT_QT_SUITE(DesktopAlignTest, runDesktopTest<DesktopAlignTest>)

@@ -66,6 +66,7 @@ class DesktopClearanceTest : public QObject {
   void aHiddenTableSearchesNothing();
   void eachReviewPanelIsOneClickAway();
   void reviewPanelsShareOnePlaceAndLeaveTheSidesTheirHeight();
+  void theButtonOfAPanelBehindATabBringsItToTheFront();
   void theNoteFollowsWhatIsChosen();
 };
 
@@ -254,15 +255,43 @@ void DesktopClearanceTest::reviewPanelsShareOnePlaceAndLeaveTheSidesTheirHeight(
   QTRY_VERIFY(!plots->isVisible());
   press("plotsDock");
   QTRY_VERIFY(isInFront("plotsDock"));
-  for (const char* name : names)
+  for (const char* name : names) {
+    // One behind a tab comes to the front first.
+    if (!isInFront(name)) press(name);
+    QTRY_VERIFY2(isInFront(name), name);
     press(name);
-  QTRY_VERIFY(!plots->isVisible() && !clearances->isVisible());
+    QTRY_VERIFY2(!d.widget<QDockWidget>(name)->isVisible(), name);
+  }
   QTRY_VERIFY2(heights() == before, qPrintable(QString::number(heights().at(1))));
   // Where it was put beside another, it comes back.
   d.window().addDockWidget(Qt::BottomDockWidgetArea, plots, Qt::Horizontal);
   press("clearanceDock");
   press("plotsDock");
   QTRY_VERIFY(isInFront("clearanceDock") && isInFront("plotsDock"));
+}
+
+/// It was closed: both buttons looked pressed, and nothing said which of the two was seen.
+void DesktopClearanceTest::theButtonOfAPanelBehindATabBringsItToTheFront() {
+  DesktopDriver d;
+  const auto press = [&d](const char* name) {
+    QTest::mouseClick(d.window().findChild<QToolButton*>(QLatin1String(name) + QStringLiteral("Button")),
+                      Qt::LeftButton);
+  };
+  const auto* check = d.widget<QDockWidget>("sceneCheckDock");
+  const auto* plots = d.widget<QDockWidget>("plotsDock");
+  press("sceneCheckDock");
+  QTRY_VERIFY(check->isVisible() && !check->visibleRegion().isEmpty());
+  press("plotsDock");
+  QTRY_VERIFY(plots->isVisible() && !plots->visibleRegion().isEmpty());
+  QTRY_VERIFY(check->isVisible() && check->visibleRegion().isEmpty());
+  press("sceneCheckDock");
+  QTRY_VERIFY(check->isVisible() && !check->visibleRegion().isEmpty());
+  QVERIFY(plots->isVisible() && plots->visibleRegion().isEmpty());
+  QVERIFY(check->toggleViewAction()->isChecked() && plots->toggleViewAction()->isChecked());
+  // In front it is closed, and the other stays.
+  press("sceneCheckDock");
+  QTRY_VERIFY(!check->isVisible());
+  QTRY_VERIFY(plots->isVisible() && !plots->visibleRegion().isEmpty());
 }
 
 void DesktopClearanceTest::theNoteFollowsWhatIsChosen() {

@@ -6,6 +6,7 @@
 #include <QHeaderView>
 #include <QScreen>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QTableView>
 #include <algorithm>
 
@@ -114,6 +115,9 @@ class DesktopLayoutTest : public QObject {
   void aScreenOf1600By1000IsEnoughAtScaleTwo();
   void panelsAtTheBottomScrollInASmallWindow();
   void aSmallWindowShowsTwoRowsOfClearancesAndAPieceOfThePlots();
+  void aPanelOpensWithRoomForItsButtons_data();
+  void aPanelOpensWithRoomForItsButtons();
+  void aHeightThatTheUserGivesAPanelStays();
   void whatIsHiddenAndMovedComesBack();
   void theThemeComesBack();
   void dialogsThatAreMadeOnDemandHaveNoNamelessField_data();
@@ -246,6 +250,59 @@ void DesktopLayoutTest::aSmallWindowShowsTwoRowsOfClearancesAndAPieceOfThePlots(
   open("plotsDock", "plotsScroll", plots);
   QTRY_VERIFY2(seenOf(plots).height() >= kLeastOfPlots, qPrintable(QString::number(seenOf(plots).height())));
   QCOMPARE(run.window().size(), kRoom);
+  run.close();
+}
+
+void DesktopLayoutTest::aPanelOpensWithRoomForItsButtons_data() {
+  QTest::addColumn<QSize>("size");
+  QTest::addColumn<bool>("isAfterAnother");
+  QTest::newRow("screen of 1600 x 1000") << QSize(1600, 981) << false;
+  QTest::newRow("in a tab beside another") << QSize(1600, 981) << true;
+  QTest::newRow("usual size") << QSize(1360, 860) << false;
+}
+
+/// *Scene check* hid its lowest row of buttons, below a table that scrolled too.
+void DesktopLayoutTest::aPanelOpensWithRoomForItsButtons() {
+  QFETCH(QSize, size);
+  QFETCH(bool, isAfterAnother);
+  Run run;
+  run.window().resize(size);
+  QTRY_COMPARE(run.window().size(), size);
+  if (isAfterAnother) {
+    chooseCommand(run.window(), run.dock("checkDock")->toggleViewAction());
+    QTRY_VERIFY(run.dock("checkDock")->isVisible());
+  }
+  QDockWidget* dock = run.dock("sceneCheckDock");
+  chooseCommand(run.window(), dock->toggleViewAction());
+  const auto* scroll = dock->findChild<QScrollArea*>(QStringLiteral("sceneCheckScroll"));
+  for (const char* name :
+       {"runSceneCheck", "acceptFinding", "fixFinding", "ruleForPair", "exportSceneCheck"}) {
+    const auto* button = dock->findChild<QPushButton*>(QLatin1String(name));
+    QTRY_VERIFY2(button->isVisible() && seenOf(*button).size() == button->size(), name);
+  }
+  QTRY_COMPARE(scroll->verticalScrollBar()->maximum(), 0);
+  // The view stays the larger.
+  QVERIFY(dock->height() < size.height() / 2);
+  QCOMPARE(run.window().size(), size);
+  run.close();
+}
+
+/// A panel gets its height once, not whenever it is asked for.
+void DesktopLayoutTest::aHeightThatTheUserGivesAPanelStays() {
+  Run run;
+  QDockWidget* dock = run.dock("sceneCheckDock");
+  const auto* scroll = dock->findChild<QScrollArea*>(QStringLiteral("sceneCheckScroll"));
+  chooseCommand(run.window(), dock->toggleViewAction());
+  QTRY_VERIFY(dock->isVisible() && scroll->widget()->height() >= scroll->widget()->sizeHint().height());
+  const int before = dock->height();
+  run.window().resizeDocks({dock}, {before - 60}, Qt::Vertical);
+  QTRY_COMPARE(dock->height(), before - 60);
+  // The table gives way, so that nothing else scrolls.
+  QTRY_COMPARE(scroll->verticalScrollBar()->maximum(), 0);
+  // Asks for the panel that is shown already.
+  run.choose("checkScene");
+  QTest::qWait(100);
+  QCOMPARE(dock->height(), before - 60);
   run.close();
 }
 

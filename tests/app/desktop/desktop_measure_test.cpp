@@ -26,6 +26,7 @@ class DesktopMeasureTest : public QObject {
   void dragsStillOrbitAndEscapeLeaves();
   void oneToolAtATimeTakesClicks();
   void whatIsSeenThroughAnotherPartIsMeasured();
+  void closedByItsButtonItGivesTheKeysToTheView();
 
  private:
   /// The two cubes from the front, and the tool on.
@@ -242,6 +243,18 @@ void DesktopMeasureTest::whatIsSeenThroughAnotherPartIsMeasured() {
   d.action("seeThrough")->setChecked(false);
   pointer.hover(onMoving);
   QTRY_COMPARE(d.text("measureHint"), QStringLiteral("Flat face of fixed"));
+}
+
+/// The next widget by Tab is a button of the status bar: the arrow keys went along those, and Space opened a panel.
+void DesktopMeasureTest::closedByItsButtonItGivesTheKeysToTheView() {
+  DesktopDriver d;
+  begin(d);
+  auto* close = d.widget<QPushButton>("measureClose");
+  close->setFocus();
+  QVERIFY(close->hasFocus());
+  QTest::mouseClick(close, Qt::LeftButton);
+  QVERIFY(!d.widget<QWidget>("measureBar")->isVisible());
+  QVERIFY(d.window().viewport().hasFocus());
 }
 
 NEARFIT_QT_SUITE(DesktopMeasureTest, runDesktopTest<DesktopMeasureTest>)

@@ -22,6 +22,7 @@ class DesktopSectionTest : public QObject {
   void theCutFollowsPartsThatMove();
   void openMeshesAreCutWithoutACapAndNamed();
   void switchedOffNothingIsLeftOfIt();
+  void closedByItsButtonItGivesTheKeysToTheView();
 };
 
 void DesktopSectionTest::whatLiesBeforeThePlaneIsCutAwayAndTheCutIsClosed() {
@@ -176,6 +177,18 @@ void DesktopSectionTest::switchedOffNothingIsLeftOfIt() {
   QVERIFY(std::abs(cut.picked({0.01, -0.02, 0.003})->point.y + 0.02) < 1e-6);
   QVERIFY(cut.picked({0.01, -0.02, 0.003})->cut == nullptr);
   QVERIFY(cut.d.comesToRest());
+}
+
+/// As the measuring bar did, it gave them to the status bar.
+void DesktopSectionTest::closedByItsButtonItGivesTheKeysToTheView() {
+  SectionDriver cut;
+  cut.begin("sectionY");
+  auto* close = cut.d.widget<QWidget>("sectionClose");
+  close->setFocus();
+  QVERIFY(close->hasFocus());
+  cut.press("sectionClose");
+  QVERIFY(!cut.d.widget<QWidget>("sectionBar")->isVisible());
+  QVERIFY(cut.view().hasFocus());
 }
 
 NEARFIT_QT_SUITE(DesktopSectionTest, runDesktopTest<DesktopSectionTest>)

@@ -5,6 +5,7 @@
 #include "core/path/path_file.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/app/desktop/dialog_answers.h"
+#include "tests/app/desktop/view_driver.h"
 #include "ui/panels/suggest/path_suggestion.h"
 #include "ui/widgets/error_box.h"
 
@@ -53,6 +54,7 @@ class DesktopSuggestTest : public QObject {
 
  private slots:
   void aPathThatIsFoundIsPlayedSavedAndFelt();
+  void theGuideIsSeenAndTheKeysGoToTheView();
   void closingTheCardEndsTheGhost();
   void whatIsOutAlreadyIsTold();
   void withoutAPartInHandThereIsNothingToSuggest();
@@ -82,6 +84,69 @@ void DesktopSuggestTest::aPathThatIsFoundIsPlayedSavedAndFelt() {
   f.d.choose("stop");
   QTRY_VERIFY(!f.d.application.servo().status().isTaken());
   QVERIFY2(f.answers.faults().isEmpty(), qPrintable(f.answers.faults().join(QLatin1Char(','))));
+  QVERIFY(f.failures.isEmpty());
+}
+
+/// The card kept the focus and lay over the part, and nothing showed the path that the hand was to follow.
+void DesktopSuggestTest::theGuideIsSeenAndTheKeysGoToTheView() {
+  SuggestFixture f;
+  std::shared_ptr<const AssemblyPath> path;
+  QObject::connect(&f.d.window().suggestion(), &ui::PathSuggestion::guidanceChanged, &f.d.application,
+                   [&path](const auto& given) {
+                     if (given != nullptr) path = given;
+                   });
+  f.d.choose("viewFront");
+  f.suggest("suggestToDrawn");
+  QTRY_VERIFY_WITH_TIMEOUT(f.card() != nullptr && f.card()->isVisible(), 60'000);
+  QTRY_VERIFY(!f.ghosts.isEmpty());
+  // Nothing is felt yet, so there are no numbers.
+  QVERIFY(!f.d.widget<QWidget>("colourLegend")->isVisible());
+  const ui::Viewport& view = f.d.window().viewport();
+  QVERIFY(!f.card()->frameGeometry().contains(view.mapToGlobal(view.rect().center())));
+
+  f.d.chooseHand(ui::Hand::Manual);
+  QApplication::setActiveWindow(f.card());
+  QTRY_COMPARE(QApplication::activeWindow(), static_cast<QWidget*>(f.card()));
+  f.press("suggestionFeel");
+  QTRY_VERIFY(f.d.application.servo().isRunning());
+  QTRY_VERIFY(view.hasFocus());
+  QTRY_VERIFY(f.d.widget<QWidget>("colourLegend")->isVisible());
+
+  // The centre goes straight from pose to pose.
+  QVERIFY(path != nullptr && path->poses.size() > 1);
+  constexpr glm::dvec3 kCentre(0.0, 0.0, 0.035);  // Of the moving cube, in its frame [m].
+  glm::dvec3 middle(0.0);
+  double longest = 0.0;
+  for (std::size_t i = 1; i < path->poses.size(); ++i) {
+    const glm::dvec3 a = path->poses[i - 1].worldFromLead.applyToPoint(kCentre),
+                     b = path->poses[i].worldFromLead.applyToPoint(kCentre);
+    if (glm::distance(a, b) <= longest) continue;
+    longest = glm::distance(a, b);
+    middle = 0.5 * (a + b);
+  }
+  const auto isLineSeen = [&f, &middle] {
+    constexpr int kReach = 3, kAlike = 60;
+    ViewDriver driver(f.d);
+    const QImage picture = f.d.picture();
+    const QPoint at = driver.seen(middle) * driver.view().devicePixelRatioF();
+    for (int y = -kReach; y <= kReach; ++y) {
+      for (int x = -kReach; x <= kReach; ++x) {
+        const QColor pixel = picture.pixelColor(at + QPoint(x, y));
+        const int off = std::abs(pixel.red() - ui::colours::kHand.red()) +
+                        std::abs(pixel.green() - ui::colours::kHand.green()) +
+                        std::abs(pixel.blue() - ui::colours::kHand.blue());
+        if (off < kAlike) return true;
+      }
+    }
+    return false;
+  };
+  QTRY_VERIFY(isLineSeen());
+  keepPictures(f.d.window(), QStringLiteral("guided"));
+  f.d.choose("stop");
+  QTRY_VERIFY(!f.d.application.servo().status().isTaken());
+  f.card()->reject();
+  QTRY_VERIFY(f.card() == nullptr);
+  QTRY_VERIFY(!isLineSeen());
   QVERIFY(f.failures.isEmpty());
 }
 

@@ -8,6 +8,7 @@
 #include <exception>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "core/parallel/low_priority.h"
 #include "core/path/path_file.h"
@@ -15,6 +16,7 @@
 #include "core/scene/moving_body.h"
 #include "ui/model/hand_state.h"
 #include "ui/panels/suggest/suggestion_card.h"
+#include "ui/view3d/mark_actors.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/make_action.h"
@@ -23,6 +25,7 @@
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/progress_dialog.h"
 #include "ui/widgets/save_file.h"
+#include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 namespace {
@@ -33,6 +36,12 @@ constexpr int kGhostMs = 16;
 constexpr double kMaxPlayTime = 8.0, kRest = 1.0;
 /// Share of the progress that finding where a part was drawn takes: it may read a document.
 constexpr double kDrawnFound = 0.1;
+/// Width of the line that shows the path, and of the dots at its ends: thinner than the ghost's line, which lies on it
+/// [device-independent pixels].
+constexpr float kWayWidth = 2.0F, kWayEnd = 8.0F;
+/// From the card to the view's upper left corner: what is in hand is in the middle, the legend below, the marker of the
+/// axes on the right [pixels].
+constexpr int kCardFromCorner = 14;
 
 QString nameOfMoving(const Scene& scene) {
   if (scene.movingGroup()) return QString::fromStdString(scene.findGroup(*scene.movingGroup())->name);
@@ -67,7 +76,9 @@ PathSuggestion::PathSuggestion(const Context& context, QWidget* window)
       action_(
           makeAction(this, "suggestPath", tr("Suggest path…"), {}, {},
                      tr("Look for a way of what is in hand to where it was drawn, or out of the assembly"))),
-      ghost_(std::make_unique<ServoSnapshot>()) {
+      ghost_(std::make_unique<ServoSnapshot>()),
+      way_(std::make_unique<MarkActors>(view_.overlay(), MarkActors::Look{1.0, kWayWidth, kWayEnd})) {
+  way_->setColours(colours::kHand, colours::kHand);
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.setInterval(kGhostMs);
   connect(&timer_, &QTimer::timeout, this, &PathSuggestion::play);
@@ -130,7 +141,9 @@ void PathSuggestion::show(const Search& search) {
   connect(card_, &SuggestionCard::saveWanted, this, &PathSuggestion::save);
   connect(card_, &SuggestionCard::guidanceWanted, this, &PathSuggestion::guide);
   connect(card_, &QDialog::finished, this, &PathSuggestion::close);
+  card_->move(view_.mapToGlobal(QPoint(kCardFromCorner, kCardFromCorner)));
   card_->show();
+  if (isFound) drawWay();
   sincePlay_.restart();
   update();
 }
@@ -145,7 +158,9 @@ void PathSuggestion::close() {
   const bool isShown = timer_.isActive();
   timer_.stop();
   path_.reset();
+  way_->clear();
   if (isShown) view_.clearSnapshot();
+  view_.requestRender();
   if (std::exchange(isGuiding_, false)) emit guidanceChanged(nullptr);
 }
 
@@ -170,7 +185,23 @@ void PathSuggestion::guide(bool isOn) {
   if (!path_) return;
   isGuiding_ = isOn;
   emit guidanceChanged(isOn ? path_ : nullptr);
-  if (isOn) emit feelRequested();
+  if (!isOn) return;
+  // Keys that move the hand go to whatever has the focus: not to the card.
+  window_->activateWindow();
+  view_.setFocus();
+  emit feelRequested();
+}
+
+void PathSuggestion::drawWay() {
+  MarkCells faces, line, ends;
+  std::vector<glm::dvec3> places;
+  for (const GuidancePose& pose : wayOf(*path_, massOfMoving(session_.scene()).properties.centre))
+    places.push_back(pose.place);
+  if (places.size() > 1) line.add(places);
+  ends.add({places.front()});
+  ends.add({places.back()});
+  way_->show(faces, line, ends);
+  view_.requestRender();
 }
 
 void PathSuggestion::update() {
@@ -210,7 +241,7 @@ void PathSuggestion::play() {
   ghost.centre = ghost.proxy.applyToPoint(massOfMoving(scene).properties.centre);
   ghost.distance = std::numeric_limits<double>::infinity();
   ghost.time = time;
-  view_.showSnapshot(ghost);
+  view_.showGhost(ghost);
 }
 
 }  // namespace nearfit::ui

@@ -20,12 +20,13 @@ class QWidget;
 namespace nearfit::ui {
 
 class HandState;
+class MarkActors;
 class SuggestionCard;
 class Viewport;
 
-/// *Suggest path...*: searches a path of what is in hand in another thread, plays it in the view as a ghost, saves it, and
-/// has the hand guided along it. Changes nothing in the session. The ghost rests while the part is felt: the view then
-/// shows the hand's.
+/// *Suggest path...*: searches a path of what is in hand in another thread, draws it in the view as a line, plays it as a
+/// ghost, saves it, and has the hand guided along it. Changes nothing in the session. The ghost rests while the part is
+/// felt: the view then shows the hand's.
 class PathSuggestion : public QObject {
   Q_OBJECT
 
@@ -66,6 +67,8 @@ class PathSuggestion : public QObject {
   void show(const Search& search);
   void save();
   void guide(bool isOn);
+  /// Draws the way of the centre of mass of what is in hand along the path.
+  void drawWay();
   void update();
   void followSession();
   void play();
@@ -83,6 +86,7 @@ class PathSuggestion : public QObject {
   std::optional<GroupId> movingGroup_;  ///< Set if that part leads a group.
   std::uint64_t sceneSerial_ = 0;       ///< Serial of its scene.
   std::unique_ptr<ServoSnapshot> ghost_;
+  std::unique_ptr<MarkActors> way_;
   QTimer timer_;
   QElapsedTimer sincePlay_;
   Subscription changes_;

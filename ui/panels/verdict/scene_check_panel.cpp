@@ -47,6 +47,8 @@ constexpr int kCheckPercent = 100;
 /// Max widths that names and the other columns ask for [pixels at the usual font]: some 35 and 25 letters, beyond which names
 /// only tell parts apart at their end, and a reason is read in its tool tip.
 constexpr int kMaxNameWidth = 240, kMaxWordsWidth = 170;
+/// Rows of findings that there is room for when the panel opens: enough to compare some, and the view stays the larger.
+constexpr int kRowsAtFirst = 6;
 
 /// Room around the marks that the camera goes to, as a share of their size, and their min size as a share of
 /// the scene: a tiny clash alone would fill the view without saying where it is.
@@ -202,6 +204,9 @@ void SceneCheckPanel::setUpTable() {
   table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   table_->sortByColumn(PairFindingsModel::Verdict, Qt::DescendingOrder);
   table_->setMinimumSize(forFont(*table_, 360), forFont(*table_, 60));
+  // Labels that wrap make the pane around the panel as high as the panel would like to be: the table gives way instead,
+  // and scrolls by itself.
+  table_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored);
   QHeaderView* header = table_->horizontalHeader();
   header->setMinimumSectionSize(forFont(*table_, 60));
   header->setHighlightSections(false);
@@ -572,6 +577,12 @@ void SceneCheckPanel::refresh() {
   model_->refresh();
   showState();
   showPairs();
+}
+
+QSize SceneCheckPanel::sizeHint() const {
+  const int rows = table_->horizontalHeader()->sizeHint().height() +
+                   kRowsAtFirst * table_->verticalHeader()->defaultSectionSize();
+  return QWidget::sizeHint() + QSize(0, std::max(rows - table_->minimumHeight(), 0));
 }
 
 void SceneCheckPanel::showEvent(QShowEvent* event) {

@@ -41,6 +41,9 @@ class SceneCheckPanel : public QWidget {
   };
   explicit SceneCheckPanel(const Context& context, QWidget* parent = nullptr);
 
+  /// With some rows of the table, which may be lower.
+  QSize sizeHint() const override;
+
   /// Asks for this panel.
   QAction* action() const noexcept { return action_; }
   /// Gives the focus to the button that begins a check, or ends it.
