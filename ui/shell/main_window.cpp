@@ -181,8 +181,8 @@ void MainWindow::makePanels() {
 }
 
 void MainWindow::makeReviewPanels() {
-  auto* clearances =
-      new ClearancePanel({session_, *hand_, *viewport_}, [this] { return poses_->poseOfMoving(); }, this);
+  auto* clearances = new ClearancePanel(
+      {session_, *selection_, *hand_, *viewport_}, [this] { return poses_->poseOfMoving(); }, this);
   connect(units_, &UnitMenu::unitChanged, clearances, &ClearancePanel::refresh);
   clearanceMap_ = new ClearanceMapPanel({session_, *selection_, *hand_, *viewport_}, this);
   connect(units_, &UnitMenu::unitChanged, clearanceMap_, &ClearanceMapPanel::refresh);
