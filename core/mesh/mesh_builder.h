@@ -53,7 +53,7 @@ enum class MeshCondition : std::uint8_t {
   Open,      ///< Open, non-manifold or inconsistent edges remain.
 };
 
-/// @param report  Of the loading of `mesh`; its warnings may include those of a reader.
+/// @param report  From loading `mesh`; its warnings may include those of a reader.
 MeshCondition conditionOf(const TriangleMesh& mesh, const MeshBuildReport& report);
 
 /// A sentence for each kind of defect of a mesh, as in MeshBuildReport::warnings.

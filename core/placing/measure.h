@@ -15,7 +15,7 @@ namespace nearfit {
 struct MeasureEnd {
   glm::dvec3 point{0.0};  ///< Distances are measured to this point [m].
   AlignFeature feature;   ///< The feature pointed at: for angles and perpendicular distances.
-  /// Of a straight edge, where it begins and ends along its feature's direction, from the feature's point [m].
+  /// Where a straight edge begins and ends along its feature's direction, from the feature's point [m]; else none.
   std::optional<glm::dvec2> extent = {};
 };
 

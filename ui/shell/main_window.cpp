@@ -58,6 +58,7 @@
 #include "ui/tools/selecting/view_menu.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/error_box.h"
+#include "ui/widgets/number_field.h"
 #include "ui/widgets/scroll_column.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/view_bar.h"
@@ -322,6 +323,8 @@ void MainWindow::makeToolsAndMenus() {
 
 void MainWindow::connectCommands() {
   listenTo(*files_, *parts_, *feel_, *undo_, *suggestion_);
+  for (const NumberField* field : findChildren<NumberField*>())
+    connect(field, &NumberField::noted, this, &MainWindow::showNote);
   feel_->loadPresets();
   connect(feel_, &FeelControl::sceneNeeded, posePanel_, &PosePanel::commit);
   // Keys that move the hand go to whatever has the focus.

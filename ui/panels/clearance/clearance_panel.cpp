@@ -97,7 +97,7 @@ ClearancePanel::ClearancePanel(const Context& context, ClearanceSearch::PoseOfMo
   showClearances();
 }
 
-/// Of the window it gets only keys that nothing in it has handled, so active tools see Escape first.
+/// Gets only those keys of the window that nothing in it has handled, so active tools see Escape first.
 bool ClearancePanel::eventFilter(QObject* watched, QEvent* event) {
   const bool isEscape =
       event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape;
@@ -118,6 +118,7 @@ void ClearancePanel::setUpFields() {
   threshold_ = new NumberField(this);
   threshold_->setObjectName(QStringLiteral("clearanceThreshold"));
   threshold_->setTrimmed(true);
+  threshold_->setActingAtOnce();
   threshold_->setLength(kThresholdDecimals);
   threshold_->setQuantityRange(0.0, kMaxThreshold);
   threshold_->setQuantityStep(kThresholdStep);
