@@ -1,8 +1,10 @@
 #include "core/mesh/mesh_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -302,6 +304,17 @@ std::vector<std::string> topologyWarnings(const MeshTopology& topology) {
   warn(topology.inconsistentEdges, "is inconsistent (its two faces have opposite senses).",
        "are inconsistent (their two faces have opposite senses).");
   return warnings;
+}
+
+MeshCondition conditionOf(const TriangleMesh& mesh, const MeshBuildReport& report) {
+  if (report.warnings.empty()) return MeshCondition::Sound;
+  if (!topologyWarnings(mesh.topology()).empty()) return MeshCondition::Open;
+  // One sentence each, as buildMesh() adds them; readers add theirs.
+  const auto mended = std::ranges::count_if(
+      std::array{report.nonFiniteFaces > 0, report.degenerateFaces > 0, report.duplicateFaces > 0,
+                 report.stitchedEdges > 0, report.turnedInsideOut},
+      std::identity());
+  return std::cmp_greater(report.warnings.size(), mended) ? MeshCondition::Doubtful : MeshCondition::Mended;
 }
 
 TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report,

@@ -45,6 +45,17 @@ struct MeshBuildReport {
   std::vector<std::string> warnings;  ///< One sentence with counts for each defect that a user should know.
 };
 
+/// Condition of a mesh after loading, by what its warnings tell.
+enum class MeshCondition : std::uint8_t {
+  Sound,     ///< No warning.
+  Mended,    ///< Each defect was mended, and none remains.
+  Doubtful,  ///< Its edges are as they should be, but its reader warned: its file may be cut off.
+  Open,      ///< Open, non-manifold or inconsistent edges remain.
+};
+
+/// @param report  From loading `mesh`; its warnings may include those of a reader.
+MeshCondition conditionOf(const TriangleMesh& mesh, const MeshBuildReport& report);
+
 /// A sentence for each kind of defect of a mesh, as in MeshBuildReport::warnings.
 std::vector<std::string> topologyWarnings(const MeshTopology& topology);
 

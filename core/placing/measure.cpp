@@ -75,6 +75,36 @@ void alignWithPerpendicular(const MeasureEnd& from, const MeasureEnd& to, Measur
   measurement.apart = measurement.distance;
 }
 
+/// Rounding of where a foot lies, as a share of the edge's length: across from its end it is on the edge.
+constexpr double kFootRounding = 1e-9;
+
+/// The extent of a straight edge along its feature's direction.
+glm::dvec2 extentOf(const TriangleMesh& mesh, const PickedFeature& edge) {
+  const auto along = [&](std::uint32_t vertex) {
+    return glm::dot(mesh.vertices()[vertex] - edge.feature.point, edge.feature.direction);
+  };
+  const double first = along(edge.vertices.front()), last = along(edge.vertices.back());
+  return {std::min(first, last), std::max(first, last)};
+}
+
+bool isCentre(const AlignFeature& feature) noexcept {
+  return isPoint(feature) || feature.shape == FeatureShape::Circle;
+}
+
+/// Measures from a corner or centre to an edge's line. Where the point lies beside the edge, the measurement ends at the
+/// foot, wherever the edge was clicked.
+/// @param onEdge  End of `measurement` at the edge.
+void measureToEdge(const glm::dvec3& centre, const MeasureEnd& edge, glm::dvec3& onEdge,
+                   Measurement& measurement) noexcept {
+  measurement.apart = distanceTo(edge.feature, centre);
+  const double along = glm::dot(centre - edge.feature.point, edge.feature.direction);
+  const double rounding = kFootRounding * (edge.extent->y - edge.extent->x);
+  if (along < edge.extent->x - rounding || along > edge.extent->y + rounding) return;
+  measurement.pointToPoint = measurement.distance;
+  measurement.distance = *measurement.apart;
+  onEdge = footOnLine(edge.feature, centre);
+}
+
 }  // namespace
 
 MeasureEnd measureEnd(const TriangleMesh& mesh, const PickedFeature& picked, const glm::dvec3& hit,
@@ -82,7 +112,8 @@ MeasureEnd measureEnd(const TriangleMesh& mesh, const PickedFeature& picked, con
   const FeatureShape shape = picked.feature.shape;
   if (shape == FeatureShape::Point || shape == FeatureShape::Circle)
     return {picked.feature.point, picked.feature};
-  if (!picked.vertices.empty()) return {nearestOnEdge(mesh, picked, hit), picked.feature};
+  if (!picked.vertices.empty())
+    return {nearestOnEdge(mesh, picked, hit), picked.feature, extentOf(mesh, picked)};
   const bool isOnFace = surfaces != nullptr && picked.feature.isExact && !picked.triangles.empty();
   if (!isOnFace) return {hit, picked.feature};
   // The faces that are picked together are on one surface.
@@ -97,13 +128,18 @@ Measurement measure(const MeasureEnd& from, const MeasureEnd& to) noexcept {
   result.distance = glm::distance(from.point, to.point);
   const AlignFeature &a = from.feature, &b = to.feature;
   if (isPoint(a) && isPoint(b)) return result;
+  const bool isToEdge = isCentre(a) && to.extent, isFromEdge = isCentre(b) && from.extent;
+  if (isToEdge) measureToEdge(from.point, to, result.to, result);
+  if (isFromEdge) measureToEdge(to.point, from, result.from, result);
   if (isPoint(a) || isPoint(b)) {
+    if (isToEdge || isFromEdge) return result;
     result.apart = isPoint(a) ? distanceTo(b, from.point) : distanceTo(a, to.point);
     return result;
   }
   const bool isMixed = isPlane(a) != isPlane(b);
   const double between = angleBetween(a.direction, b.direction);
   result.angle = isMixed ? 0.5 * std::numbers::pi - between : between;
+  if (isToEdge || isFromEdge) return result;
   const bool hasCentre = a.shape == FeatureShape::Circle || b.shape == FeatureShape::Circle;
   if (!(isMixed && hasCentre) && *result.angle > kParallelAngle) return result;
   // For a plane and a line, measure from the line to the plane.

@@ -19,7 +19,7 @@ namespace nearfit {
 
 /// The open scene and the commands that change it, shared by GUI, CLI and scripts.
 ///
-/// Each command is one undo step. It either succeeds as a whole or throws UsageError and changes nothing.
+/// Each command is one undo step, except setPairRecords(). It either succeeds as a whole or throws UsageError and changes nothing.
 /// No-ops record no undo step. A command on several parts fails if any of them is locked, unless it only
 /// changes how parts are shown or locked. Single-threaded. Poses are in the world frame; SI units.
 class Session {
@@ -83,7 +83,8 @@ class Session {
   void setJointsOn(const std::vector<JointId>& ids, bool on);
   /// Sets the rules for pairs of parts in checks of the scene. Throws UsageError like Scene::setPairRules().
   void setPairRules(const std::vector<PairRule>& rules);
-  /// Keeps what a check of the scene found. Throws UsageError like Scene::setPairRecords().
+  /// Keeps what a check of the scene found, with the present state instead of as a step of its own: undo and redo lead
+  /// from it and back to it, and the scene is modified. Throws UsageError like Scene::setPairRecords().
   void setPairRecords(const std::vector<PairRecord>& records);
   /// Sets what the user says about findings; parts may be locked. Throws UsageError if one of the pairs has no record, or
   /// like checkPairRecord().

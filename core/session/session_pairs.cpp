@@ -20,7 +20,10 @@ void Session::setPairRecords(const std::vector<PairRecord>& records) {
   Scene next = scene();
   next.setPairRecords(records);
   if (next.pairRecords() == scene().pairRecords()) return;
-  commit(std::move(next), "Check scene");
+  // Undo takes back what the user did, and a check that follows a move must not stand in its way.
+  current_.scene = std::move(next);
+  current_.serial = nextSerial_++;
+  events_.notify();
 }
 
 void Session::setFindingState(const std::vector<PartPair>& pairs, FindingState state,

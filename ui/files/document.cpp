@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/math/aabb.h"
+#include "core/mesh/mesh_builder.h"
 #include "core/scene/document_parts.h"
 #include "core/scene/moving_body.h"
 #include "core/scene/scene_file.h"
@@ -61,6 +63,29 @@ QStringList withoutUnit(const QStringList& files) {
     if (!storesUnit(toPath(file))) without << file;
   }
   return without;
+}
+
+/// Says in which condition the worst of several meshes are.
+/// @param meshes  Their number by condition; one has a warning.
+QString conditionText(const std::map<MeshCondition, int>& meshes) {
+  const auto& [condition, count] = *meshes.rbegin();
+  const bool isOne = count == 1;
+  switch (condition) {
+    case MeshCondition::Open:
+      return isOne ? Document::tr("A mesh is open or degenerate: see its tooltip in the list of parts")
+                   : Document::tr("%1 meshes are open or degenerate: see their tooltips in the list of parts")
+                         .arg(count);
+    case MeshCondition::Doubtful:
+      return isOne ? Document::tr("A mesh may not be whole: see its tooltip in the list of parts")
+                   : Document::tr("%1 meshes may not be whole: see their tooltips in the list of parts")
+                         .arg(count);
+    case MeshCondition::Mended:
+    case MeshCondition::Sound:
+      break;
+  }
+  return isOne ? Document::tr("Mended on loading: see the mesh's tooltip in the list of parts")
+               : Document::tr("Mended on loading: %1 meshes, see their tooltips in the list of parts")
+                     .arg(count);
 }
 
 /// Box around all parts of a scene that have a mesh, in the world.
@@ -414,20 +439,15 @@ void Document::loadParts(const QStringList& files, double metresPerUnit, Target 
 
 void Document::tellWarnings(const LoadedFiles& files) {
   QStringList warnings;
-  int warned = 0;
-  const auto add = [&](const QString& name, const std::vector<std::string>& texts) {
-    warned += texts.empty() ? 0 : 1;
-    for (const std::string& text : texts)
-      warnings << name + QStringLiteral(": ") + QString::fromStdString(text);
-  };
-  for (const PartGeometryPtr& geometry : files.geometries())
-    add(fromPath(geometry->file.filename()), geometry->report.warnings);
+  std::map<MeshCondition, int> meshes;
+  for (const PartGeometryPtr& geometry : files.geometries()) {
+    ++meshes[conditionOf(geometry->mesh, geometry->report)];
+    for (const std::string& text : geometry->report.warnings)
+      warnings << fromPath(geometry->file.filename()) + QStringLiteral(": ") + QString::fromStdString(text);
+  }
   // The status bar would cut several off and soon clear them; the part list keeps them.
   if (warnings.size() > 1)
-    emit noted(
-        (warned == 1
-             ? tr("A mesh is open or degenerate: see its tooltip in the list of parts")
-             : tr("%1 meshes are open or degenerate: see their tooltips in the list of parts").arg(warned)));
+    emit noted(conditionText(meshes));
   else if (warnings.size() == 1)
     emit noted(warnings.first());
   QVector<FailedItem> said;

@@ -58,6 +58,7 @@
 #include "ui/tools/selecting/view_menu.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/error_box.h"
+#include "ui/widgets/number_field.h"
 #include "ui/widgets/scroll_column.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/view_bar.h"
@@ -167,8 +168,8 @@ void MainWindow::makePanels() {
 }
 
 void MainWindow::makeReviewPanels() {
-  auto* clearances =
-      new ClearancePanel({session_, *hand_, *viewport_}, [this] { return poses_->poseOfMoving(); }, this);
+  auto* clearances = new ClearancePanel(
+      {session_, *selection_, *hand_, *viewport_}, [this] { return poses_->poseOfMoving(); }, this);
   connect(units_, &UnitMenu::unitChanged, clearances, &ClearancePanel::refresh);
   clearanceMap_ = new ClearanceMapPanel({session_, *selection_, *hand_, *viewport_}, this);
   connect(units_, &UnitMenu::unitChanged, clearanceMap_, &ClearanceMapPanel::refresh);
@@ -308,6 +309,8 @@ void MainWindow::makeToolsAndMenus() {
 
 void MainWindow::connectCommands() {
   listenTo(*files_, *parts_, *feel_, *undo_, *suggestion_);
+  for (const NumberField* field : findChildren<NumberField*>())
+    connect(field, &NumberField::noted, this, &MainWindow::showNote);
   feel_->loadPresets();
   connect(feel_, &FeelControl::sceneNeeded, posePanel_, &PosePanel::commit);
   // Keys that move the hand go to whatever has the focus.

@@ -264,6 +264,7 @@ void NumberField::keyPressEvent(QKeyEvent* event) {
 void NumberField::changeEvent(QEvent* event) {
   QDoubleSpinBox::changeEvent(event);
   if (event->type() != QEvent::EnabledChange || isEnabled()) return;
+  if (actsAtOnce_ && isFaulty()) giveUp(read(lineEdit()->text()));
   // In a window that is not active no event tells of the lost focus: caret and selection would stay.
   QFocusEvent lost(QEvent::FocusOut, Qt::OtherFocusReason);
   QCoreApplication::sendEvent(lineEdit(), &lost);
@@ -274,7 +275,11 @@ void NumberField::focusOutEvent(QFocusEvent* event) {
   // A menu takes the focus only for a while.
   if (event->reason() != Qt::PopupFocusReason && lineEdit()->isModified()) {
     const Reading reading = read(lineEdit()->text());
-    if (!reading.fault.isEmpty()) {
+    // Whoever looks something up in another window comes back to the text.
+    const bool isLeft = actsAtOnce_ && event->reason() != Qt::ActiveWindowFocusReason;
+    if (!reading.fault.isEmpty() && isLeft) {
+      giveUp(reading);
+    } else if (!reading.fault.isEmpty()) {
       showFault(reading);
       // Its caret goes, as the base class would have it go.
       QCoreApplication::sendEvent(lineEdit(), event);
@@ -283,6 +288,12 @@ void NumberField::focusOutEvent(QFocusEvent* event) {
     }
   }
   QDoubleSpinBox::focusOutEvent(event);
+}
+
+void NumberField::giveUp(const Reading& reading) {
+  const QString text = lineEdit()->text();
+  takeBack();
+  emit noted(tr("“%1” was taken back. %2").arg(text, QString(reading.fault).replace('\n', ' ')));
 }
 
 void NumberField::showFault(const Reading& reading) {

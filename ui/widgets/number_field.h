@@ -10,7 +10,7 @@ namespace nearfit::ui {
 /// A field for a number with a unit. Takes units and arithmetic as core/text/quantity.h does: "1/4 in",
 /// "2*(3 mm + 0.5 cm)", "+= 5" to add to the present value. Commits on Return, loss of focus or a step, not
 /// on each key. Text that cannot be read stays as typed, marked and with the mistake explained, until it
-/// is corrected or reverted by Escape; the value does not change meanwhile. A double click selects all. Large numbers
+/// is corrected or reverted by Escape, or left if the field acts at once; the value does not change meanwhile. A double click selects all. Large numbers
 /// are shown with fewer decimals, so that their unit has room; the value keeps them.
 ///
 /// value() and other members of QDoubleSpinBox use the shown unit; quantity() and its like use SI.
@@ -51,6 +51,9 @@ class NumberField : public QDoubleSpinBox {
 
   /// Hides trailing zeros, for numbers of any magnitude.
   void setTrimmed(bool isTrimmed);
+  /// Says that nothing but the field itself takes its number: left with text that cannot be read, it shows the value again
+  /// and emits noted(). Otherwise such text stays, for a button that refuses it.
+  void setActingAtOnce() { actsAtOnce_ = true; }
   /// True while quantityEdited() comes from a step (arrow, key, wheel) instead of typing.
   bool isStepping() const noexcept { return isStepping_; }
   /// True if the text is not committed: being typed, or cannot be read.
@@ -73,6 +76,8 @@ class NumberField : public QDoubleSpinBox {
  signals:
   /// Emitted when the user has changed the number; `value` in SI.
   void quantityEdited(double value);
+  /// Emitted with a short note for the status bar when a field that acts at once was left with text that cannot be read.
+  void noted(const QString& text);
 
  protected:
   bool event(QEvent* event) override;
@@ -89,6 +94,8 @@ class NumberField : public QDoubleSpinBox {
   Reading read(const QString& text) const;
   bool isMixed() const;
   void showFault(const Reading& reading);
+  /// Takes back text that cannot be read, and says so.
+  void giveUp(const Reading& reading);
   void clearFault();
   void applyUnit(const QString& name, double inSi);
 
@@ -103,6 +110,7 @@ class NumberField : public QDoubleSpinBox {
   QString help_;
   bool isTrimmed_ = false;
   bool isStepping_ = false;
+  bool actsAtOnce_ = false;
 };
 
 }  // namespace nearfit::ui

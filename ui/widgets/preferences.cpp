@@ -104,6 +104,17 @@ void Preferences::setNearClearances(bool hasNearParts) {
   setValue("clearanceMap/nearParts", hasNearParts);
 }
 
+double Preferences::checkThreshold() {
+  constexpr double kFirst = 1e-3;
+  bool isNumber = false;
+  const double kept = value("sceneCheck/threshold").toDouble(&isNumber);
+  return isNumber && kept >= 0.0 && kept <= kMaxCheckThreshold ? kept : kFirst;
+}
+
+void Preferences::setCheckThreshold(double threshold) {
+  setValue("sceneCheck/threshold", threshold);
+}
+
 bool Preferences::isOrthographic() {
   return value("view/orthographic", false).toBool();
 }

@@ -36,6 +36,13 @@ class Preferences {
   static bool hasNearClearances();
   static void setNearClearances(bool hasNearParts);
 
+  /// Max threshold of a check of the scene [m].
+  static constexpr double kMaxCheckThreshold = 1e3;
+  /// Distance up to which checks and reports of the scene list pairs of parts [m]; 1 mm at first, or if the stored one is
+  /// out of range.
+  static double checkThreshold();
+  static void setCheckThreshold(double threshold);
+
   /// True if the view is in orthographic projection; false at first.
   static bool isOrthographic();
   static void setOrthographic(bool isOrthographic);

@@ -57,6 +57,7 @@ class DesktopClearanceTest : public QObject {
   void theThresholdMarksPairsInColourAndInWords();
   void lengthsAreInTheUnitThatIsChosen();
   void aRowShowsItsPairAndWhereItIsNearestAndSelectsNothing();
+  void thePairIsShownUntilTheNextSelectionOrEscape();
   void touchingIsToldApartFromOverlapping();
   void theTableFollowsMovesAndOverlaps();
   void theTableFollowsThePartInHand();
@@ -140,6 +141,36 @@ void DesktopClearanceTest::aRowShowsItsPairAndWhereItIsNearestAndSelectsNothing(
   QCOMPARE(f.d.window().selection().parts(), expected);
   QVERIFY(!label->isVisible());
   QVERIFY(differentPixels(f.d.picture(), with) > 100);
+}
+
+/// It stayed highlighted, and its label lay on the handles of what was selected then.
+void DesktopClearanceTest::thePairIsShownUntilTheNextSelectionOrEscape() {
+  ClearanceFixture f;
+  QTRY_COMPARE(f.table->model()->rowCount(), 2);
+  ui::Selection& selection = f.d.window().selection();
+  selection.set({f.d.partId("fixed")});
+  auto* label = f.d.widget<QLabel>("clearanceLabel");
+  const auto showPair = [&] {
+    f.clickRow(1);
+    return QTest::qWaitFor([label] { return label->isVisible(); });
+  };
+  QVERIFY(showPair());
+  selection.set({f.d.partId("beside")});
+  QVERIFY(!label->isVisible());
+  QVERIFY(!f.table->selectionModel()->hasSelection());
+  QVERIFY2(showPair(), "another click of the same row shows it again");
+  const std::vector<PartId> selected = selection.parts();
+  for (QWidget* focus : {static_cast<QWidget*>(&f.d.window().viewport()), static_cast<QWidget*>(f.table)}) {
+    QTest::keyClick(focus, Qt::Key_Escape);
+    QVERIFY(!label->isVisible());
+    QCOMPARE(selection.parts(), selected);
+    QVERIFY(showPair());
+  }
+  // The view shows no pair then.
+  const QImage with = f.d.picture();
+  QTest::keyClick(f.table, Qt::Key_Escape);
+  const QImage after = f.d.picture();
+  QVERIFY(differentPixels(after, with) > 100);
 }
 
 void DesktopClearanceTest::touchingIsToldApartFromOverlapping() {

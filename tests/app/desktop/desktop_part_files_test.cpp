@@ -70,6 +70,7 @@ class DesktopPartFilesTest : public QObject {
   void folderWithoutPartsIsToldQuietly();
   void fiftyBadFilesGiveOneBoxWithDetailsToCopy();
   void notesOnManyMeshesAreKeptInTheListOfParts();
+  void aMeshThatWasMendedIsNotCalledOpen();
   void replacedFileIsOfferedAndReloadedInItsPlace();
   void aSecondChangedFileJoinsTheFirstInTheNotice();
   void whatWasWavedAwayIsNotNamedAgain();
@@ -192,6 +193,28 @@ void DesktopPartFilesTest::notesOnManyMeshesAreKeptInTheListOfParts() {
         d.session().scene().parts()[static_cast<std::size_t>(row)]->geometry->report.warnings.at(0);
     QVERIFY2(tip.contains(QString::fromStdString(note)), qPrintable(tip));
   }
+}
+
+/// A nut without a finding was.
+void DesktopPartFilesTest::aMeshThatWasMendedIsNotCalledOpen() {
+  DesktopDriver d;
+  const TriangleMesh box = boxMesh(glm::dvec3(0.02));
+  const fs::path file = d.folder.path() / "box.off";
+  {
+    std::ofstream out(file);
+    out << "OFF\n" << box.vertices().size() << ' ' << box.triangles().size() + 2 << " 0\n";
+    for (const glm::dvec3& p : box.vertices())
+      out << p.x * 1e3 << ' ' << p.y * 1e3 << ' ' << p.z * 1e3 << '\n';
+    for (const Triangle& t : box.triangles())
+      out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+    const Triangle& twice = box.triangles()[0];
+    out << "3 " << twice[0] << ' ' << twice[1] << ' ' << twice[2] << "\n3 0 0 1\n";
+  }
+  d.add({nameOf(file)});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  QCOMPARE(d.session().scene().parts()[0]->geometry->report.warnings.size(), std::size_t{2});
+  QVERIFY2(d.window().statusBar()->currentMessage().startsWith(QStringLiteral("Mended on loading")),
+           qPrintable(d.window().statusBar()->currentMessage()));
 }
 
 void DesktopPartFilesTest::replacedFileIsOfferedAndReloadedInItsPlace() {

@@ -6,6 +6,7 @@
 #include "ui/files/export/report_dialog.h"
 #include "ui/widgets/error_box.h"
 #include "ui/widgets/number_field.h"
+#include "ui/widgets/preferences.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -16,6 +17,7 @@ class DesktopReportTest : public QObject {
  private slots:
   void aReportHasTheVerdictAndTheHashOfTheSavedScene();
   void theThresholdIsTheOneThatIsTyped();
+  void theThresholdOfTheSceneCheckIsOffered();
   void theSceneIsReportedAsItIsAndNotAsItWasSaved();
   void aCertificateThatCannotBeReadIsToldAndNothingIsWritten();
   void cancellingWritesNothing();
@@ -54,7 +56,7 @@ void DesktopReportTest::aReportHasTheVerdictAndTheHashOfTheSavedScene() {
   d.addCubes();
   d.session().save(d.folder.path() / "cubes.nearfit");
   const auto report = d.folder.path() / "cubes.html";
-  answerReport(nullptr);
+  answerReport("10 mm");
   answerFile(report);
   d.choose("report");
   QTRY_VERIFY2(d.window().statusBar()->currentMessage().startsWith(QStringLiteral("Wrote cubes.html. Fits")),
@@ -77,6 +79,28 @@ void DesktopReportTest::theThresholdIsTheOneThatIsTyped() {
   QTRY_VERIFY(std::filesystem::exists(report));
   QVERIFY(textOf(report, "summary").contains(QStringLiteral("all are farther apart than 4 mm")));
   QVERIFY(textOf(report, "inputs").contains(QStringLiteral("was not saved")));
+}
+
+/// That of the springs was, ten times as much.
+void DesktopReportTest::theThresholdOfTheSceneCheckIsOffered() {
+  DesktopDriver d;
+  d.addCubes();
+  double offered = -1.0;
+  const auto ask = [&] {
+    whenModal<ui::ReportDialog>([&offered](ui::ReportDialog* dialog) {
+      offered = dialog->threshold();
+      dialog->reject();
+    });
+    d.choose("report");
+  };
+  ask();
+  QCOMPARE(offered, 0.001);
+  d.choose("checkScene");
+  QTRY_VERIFY(d.widget<QDoubleSpinBox>("sceneCheckThreshold")->isVisible());
+  d.type<QDoubleSpinBox>("sceneCheckThreshold", "2.5 mm");
+  ask();
+  ui::Preferences::setCheckThreshold(0.001);
+  QCOMPARE(offered, 0.0025);
 }
 
 void DesktopReportTest::theSceneIsReportedAsItIsAndNotAsItWasSaved() {

@@ -8,6 +8,7 @@
 #include "tests/app/desktop/view_driver.h"
 #include "ui/panels/suggest/path_suggestion.h"
 #include "ui/widgets/error_box.h"
+#include "ui/widgets/number_field.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -56,6 +57,7 @@ class DesktopSuggestTest : public QObject {
   void aPathThatIsFoundIsPlayedSavedAndFelt();
   void theGuideIsSeenAndTheKeysGoToTheView();
   void closingTheCardEndsTheGhost();
+  void theSeparationOfferedCanBeRead();
   void whatIsOutAlreadyIsTold();
   void withoutAPartInHandThereIsNothingToSuggest();
 };
@@ -160,6 +162,24 @@ void DesktopSuggestTest::closingTheCardEndsTheGhost() {
   const int count = f.ghosts.size();
   QTest::qWait(200);
   QCOMPARE(f.ghosts.size(), count);
+}
+
+/// A millionth of the diagonal of a cube of 20 mm is 0.0346 um.
+void DesktopSuggestTest::theSeparationOfferedCanBeRead() {
+  SuggestFixture f;
+  double offered = 0.0;
+  QString shown;
+  f.answers.expect(QStringLiteral("suggestDialog"), [&](QDialog& dialog) {
+    const auto* field = dialog.findChild<ui::NumberField*>(QStringLiteral("suggestSeparation"));
+    offered = field->quantity();
+    shown = field->text();
+    dialog.reject();
+    return true;
+  });
+  f.d.choose("suggestPath");
+  QVERIFY2(f.answers.faults().isEmpty(), qPrintable(f.answers.faults().join(QLatin1Char(','))));
+  QVERIFY2(std::abs(offered - 0.04e-6) < 1e-15, qPrintable(QString::number(offered)));
+  QCOMPARE(shown, QStringLiteral("0.00004 mm"));
 }
 
 void DesktopSuggestTest::whatIsOutAlreadyIsTold() {

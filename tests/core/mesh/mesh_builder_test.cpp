@@ -282,6 +282,37 @@ TEST(MeshBuilder, EachKindOfEdgeIsWarnedOfWithItsCount) {
   EXPECT_THAT(report.warnings, Contains(HasSubstr("7 edges are open")));
 }
 
+TEST(MeshBuilder, AMeshIsMendedIfNothingRemainsAndOpenIfAnEdgeIs) {
+  const auto conditionFrom = [](const PolygonSoup& soup, const char* ofReader) {
+    MeshBuildReport report;
+    const TriangleMesh mesh = buildMesh(soup, {}, report);
+    if (ofReader != nullptr) report.warnings.insert(report.warnings.begin(), ofReader);
+    return conditionOf(mesh, report);
+  };
+  const PolygonSoup box = test::soupOf(test::boxMesh({1, 1, 1}));
+  EXPECT_EQ(conditionFrom(box, nullptr), MeshCondition::Sound);
+  EXPECT_EQ(conditionFrom(box, "The file was cut off."), MeshCondition::Doubtful);
+  // A face twice, one with a repeated corner, and one that is nowhere.
+  PolygonSoup faulty = box;
+  faulty.vertices.emplace_back(std::nan(""), 0, 0);
+  const auto nowhere = static_cast<std::uint32_t>(faulty.vertices.size() - 1);
+  for (const Triangle& t : {Triangle{box.corners[0], box.corners[1], box.corners[2]}, Triangle{0, 0, 1},
+                            Triangle{0, 1, nowhere}}) {
+    faulty.corners.insert(faulty.corners.end(), t.begin(), t.end());
+    faulty.closePolygon();
+  }
+  EXPECT_EQ(conditionFrom(faulty, nullptr), MeshCondition::Mended);
+  EXPECT_EQ(conditionFrom(faulty, "The file was cut off."), MeshCondition::Doubtful);
+  EXPECT_EQ(conditionFrom(test::soupOf(test::turned(test::boxMesh({1, 1, 1}))), nullptr),
+            MeshCondition::Mended);
+  // And the box without a face.
+  PolygonSoup open;
+  open.vertices = box.vertices;
+  open.corners = {box.corners.begin() + 3, box.corners.end()};
+  open.firstCorner = {box.firstCorner.begin(), box.firstCorner.end() - 1};
+  EXPECT_EQ(conditionFrom(open, nullptr), MeshCondition::Open);
+}
+
 TEST(MeshBuilder, SameSoupGivesTheSameMesh) {
   const PolygonSoup soup = shatteredSoup(test::starMesh(9, 1, 3, 0.4));
   const TriangleMesh a = build(soup), b = build(soup);

@@ -117,6 +117,41 @@ TEST(Measure, ACentreAndAnAxisAcrossAreMeasuredBetweenTheirPoints) {
   EXPECT_FALSE(measure(low, high).pointToPoint);
 }
 
+/// The distance was that to the click, 26.009 mm instead of 26.
+TEST(Measure, ACentreBesideAnEdgeIsMeasuredSquareToItWhereverItIsClicked) {
+  const glm::dvec3 at(0.002, 0.010, 0.024);
+  // Ends in a plane of its own, not square to the edge.
+  const MeasureEnd circle{at, {FeatureShape::Circle, at, glm::normalize(glm::dvec3(1, 2, 3)), 0.005}};
+  for (const double clicked : {-0.03, 0.0, 0.0013, 0.03}) {
+    MeasureEnd edge = axis({0, 0, 0}, {1, 0, 0}, {clicked, 0, 0});
+    edge.extent = {-0.03, 0.03};
+    const Measurement there = measure(circle, edge), back = measure(edge, circle);
+    for (const Measurement& m : {there, back, measure(point(at), edge), measure(edge, point(at))}) {
+      EXPECT_NEAR(m.distance, 0.026, 1e-15);
+      EXPECT_NEAR(m.apart.value(), 0.026, 1e-15);
+      EXPECT_NEAR(m.pointToPoint.value(), std::hypot(0.002 - clicked, 0.026), 1e-15);
+    }
+    EXPECT_LT(glm::distance(there.to, glm::dvec3(0.002, 0, 0)) + glm::distance(there.from, at), 1e-15);
+    EXPECT_LT(glm::distance(back.from, glm::dvec3(0.002, 0, 0)) + glm::distance(back.to, at), 1e-15);
+    EXPECT_NEAR(there.angle.value(), std::acos(1.0 / std::sqrt(14.0)), 1e-12);
+    EXPECT_FALSE(measure(point(at), edge).angle);
+  }
+}
+
+TEST(Measure, ACentreBeyondTheEndOfAnEdgeIsMeasuredToTheClick) {
+  const glm::dvec3 at(0.04, 0.03, 0.0);
+  const MeasureEnd circle{at, {FeatureShape::Circle, at, {0, 0, 1}, 0.005}};
+  MeasureEnd edge = axis({0, 0, 0}, {1, 0, 0}, {0, 0, 0});
+  edge.extent = {-0.01, 0.01};
+  for (const Measurement& m : {measure(circle, edge), measure(edge, circle)}) {
+    EXPECT_NEAR(m.distance, 0.05, 1e-15);
+    EXPECT_NEAR(m.apart.value(), 0.03, 1e-15) << "to its line";
+    EXPECT_FALSE(m.pointToPoint);
+  }
+  edge.extent = {-0.01, 0.04};
+  EXPECT_NEAR(measure(circle, edge).distance, 0.03, 1e-15) << "across from its end";
+}
+
 TEST(Measure, ACircleIsAsFarFromAFaceAsItsCentre) {
   const MeasureEnd circle{{0, 0, 0.3}, {FeatureShape::Circle, {0, 0, 0.3}, {0, 0, 1}, 0.01}};
   const Measurement m = measure(circle, plane({1, 1, 0.1}, {0, 0, 1}, {1, 1, 0.1}));
@@ -156,7 +191,12 @@ TEST(MeasureEnd, OfAnEdgeIsItsNearestPointOfAFaceTheVeryPoint) {
   const SurfaceHit hit{upper, {0.0095, 0.011, 0.03}};
   const auto edge = pickFeature(box, hit, 0.001);
   ASSERT_TRUE(edge && edge->feature.shape == FeatureShape::Axis);
-  EXPECT_LT(glm::distance(measureEnd(box, *edge, hit.point).point, glm::dvec3(0.01, 0.011, 0.03)), 1e-15);
+  const MeasureEnd onEdge = measureEnd(box, *edge, hit.point);
+  EXPECT_LT(glm::distance(onEdge.point, glm::dvec3(0.01, 0.011, 0.03)), 1e-15);
+  // It is 40 mm long.
+  ASSERT_TRUE(onEdge.extent);
+  EXPECT_NEAR(onEdge.extent->x, -0.02, 1e-15);
+  EXPECT_NEAR(onEdge.extent->y, 0.02, 1e-15);
   const auto face = pickFeature(box, hit, 1e-6);
   ASSERT_TRUE(face && face->feature.shape == FeatureShape::Plane);
   EXPECT_EQ(measureEnd(box, *face, hit.point).point, hit.point);

@@ -29,6 +29,7 @@ class NumberFieldTest : public QObject {
   void relativeEditsGoOnFromWhatIsThere();
   void whatCannotBeReadStaysAndIsExplained();
   void faultsSurviveLosingTheFocusAndWhatIsShownMeanwhile();
+  void aFieldThatActsAtOnceTakesBackWhatCannotBeReadWhenItIsLeft();
   void escapeTakesBack();
   void outOfLimitsIsSaidNotClamped();
   void stepsGoOnFromWhatWasTyped();
@@ -170,6 +171,40 @@ void NumberFieldTest::faultsSurviveLosingTheFocusAndWhatIsShownMeanwhile() {
   angle_->setFocus();
   QVERIFY(!length_->isFaulty());
   QVERIFY(isNear(length_->quantity(), 0.006));
+}
+
+/// An "f" stayed in place of the pose while the part was felt and put down.
+void NumberFieldTest::aFieldThatActsAtOnceTakesBackWhatCannotBeReadWhenItIsLeft() {
+  length_->setActingAtOnce();
+  length_->showQuantity(0.010);
+  QSignalSpy edits(length_, &NumberField::quantityEdited), notes(length_, &NumberField::noted);
+  type(length_, QStringLiteral("f"));
+  // As when another window is looked at.
+  QFocusEvent away(QEvent::FocusOut, Qt::ActiveWindowFocusReason);
+  QCoreApplication::sendEvent(length_, &away);
+  QCOMPARE(length_->text(), QStringLiteral("f"));
+  angle_->setFocus();
+  QVERIFY(!length_->isFaulty() && !length_->isUnsettled());
+  QCOMPARE(length_->text(), QStringLiteral("10.0000 mm"));
+  QCOMPARE(notes.count(), 1);
+  const QString note = notes[0][0].toString();
+  QVERIFY2(note.contains(QStringLiteral("“f” was taken back")) && !note.contains('\n'), qPrintable(note));
+  length_->showQuantity(0.020);
+  QCOMPARE(length_->text(), QStringLiteral("20.0000 mm"));
+  // Also where Return has marked it before, and where the field is disabled meanwhile.
+  enter(length_, QStringLiteral("2*(3"));
+  QVERIFY(length_->isFaulty());
+  length_->setEnabled(false);
+  QVERIFY(!length_->isFaulty());
+  QCOMPARE(length_->text(), QStringLiteral("20.0000 mm"));
+  QCOMPARE(notes.count(), 2);
+  QCOMPARE(edits.count(), 0);
+  // What can be read counts as before.
+  length_->setEnabled(true);
+  type(length_, QStringLiteral("3"));
+  angle_->setFocus();
+  QVERIFY(isNear(length_->quantity(), 0.003));
+  QCOMPARE(notes.count(), 2);
 }
 
 void NumberFieldTest::escapeTakesBack() {

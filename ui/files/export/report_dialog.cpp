@@ -9,7 +9,6 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-#include "core/scene/haptic_limits.h"
 #include "ui/widgets/font_scale.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/preferences.h"
@@ -32,7 +31,7 @@ ReportDialog::ReportDialog(double threshold, QWidget* parent)
   threshold_->setObjectName(QStringLiteral("reportThreshold"));
   threshold_->setLength(4);
   threshold_->setTrimmed(true);
-  threshold_->setQuantityRange(0.0, kMaxCutoff);
+  threshold_->setQuantityRange(0.0, Preferences::kMaxCheckThreshold);
   threshold_->setQuantityStep(1e-4);
   threshold_->showQuantity(threshold);
   threshold_->setHelp(tr("Pairs of parts that are no farther apart are listed and shown"));

@@ -96,7 +96,7 @@ bool Reporter::isAsSaved() const {
 
 void Reporter::askAndWrite() {
   if (task_.isRunning() || session_.scene().parts().empty()) return;
-  ReportDialog dialog(session_.scene().haptics().springs.cutoff, window_);
+  ReportDialog dialog(Preferences::checkThreshold(), window_);
   if (dialog.exec() != QDialog::Accepted) return;
   const QString name = session_.file().empty() ? QStringLiteral("report") : fromPath(session_.file().stem());
   const std::optional<QString> file =

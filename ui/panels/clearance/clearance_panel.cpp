@@ -4,6 +4,7 @@
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
 #include <QSettings>
@@ -16,6 +17,7 @@
 #include "core/files/atomic_write.h"
 #include "ui/model/clearance_model.h"
 #include "ui/model/hand_state.h"
+#include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
 #include "ui/view3d/spot_label.h"
 #include "ui/view3d/viewport.h"
@@ -45,8 +47,8 @@ double keptThreshold() {
 }  // namespace
 
 ClearancePanel::ClearancePanel(const Context& context, ClearanceSearch::PoseOfMoving poseOfMoving,
-                               QWidget* parent)
-    : QWidget(parent),
+                               QWidget* window)
+    : QWidget(window),
       session_(context.session),
       view_(context.view),
       search_(context.session, std::move(poseOfMoving)),
@@ -84,11 +86,24 @@ ClearancePanel::ClearancePanel(const Context& context, ClearanceSearch::PoseOfMo
   column->addLayout(below);
   connect(&search_, &ClearanceSearch::changed, this, &ClearancePanel::showClearances);
   connect(&search_, &ClearanceSearch::failed, this, &ClearancePanel::failed);
+  // Else what is selected could not be told from the pair.
+  connect(&context.selection, &Selection::changed, table_, &QTableView::clearSelection);
+  table_->installEventFilter(this);
+  window->installEventFilter(this);
   connect(&context.hand, &HandState::snapshotShown, &search_, &ClearanceSearch::showSnapshot);
   connect(&view_.poses(), &ShownPoses::changed, this, &ClearancePanel::followMoving);
   changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { showSubjects(); });
   showSubjects();
   showClearances();
+}
+
+/// Gets only those keys of the window that nothing in it has handled, so active tools see Escape first.
+bool ClearancePanel::eventFilter(QObject* watched, QEvent* event) {
+  const bool isEscape =
+      event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape;
+  if (!isEscape || !chosen()) return QWidget::eventFilter(watched, event);
+  table_->clearSelection();
+  return true;
 }
 
 void ClearancePanel::setUpFields() {
@@ -103,6 +118,7 @@ void ClearancePanel::setUpFields() {
   threshold_ = new NumberField(this);
   threshold_->setObjectName(QStringLiteral("clearanceThreshold"));
   threshold_->setTrimmed(true);
+  threshold_->setActingAtOnce();
   threshold_->setLength(kThresholdDecimals);
   threshold_->setQuantityRange(0.0, kMaxThreshold);
   threshold_->setQuantityStep(kThresholdStep);

@@ -21,12 +21,13 @@ namespace nearfit::ui {
 class ClearanceModel;
 class HandState;
 class NumberField;
+class Selection;
 class SpotLabel;
 class Viewport;
 
 /// Shows in a table how near a part is to each other one. The view shows where the pair of the chosen row is
-/// nearest, with the distance; choosing a row highlights the two and fits them into the view. It leaves the selection
-/// alone: the next number or drag is meant for one part.
+/// nearest, with the distance; choosing a row highlights the two and fits them into the view, until another part is
+/// selected or Escape is pressed. It leaves the selection alone: the next number or drag is meant for one part.
 class ClearancePanel : public QWidget {
   Q_OBJECT
 
@@ -34,11 +35,14 @@ class ClearancePanel : public QWidget {
   /// What it measures and shows it in; all outlive this.
   struct Context {
     Session& session;
+    const Selection& selection;
     const HandState& hand;
     Viewport& view;
   };
-  ClearancePanel(const Context& context, ClearanceSearch::PoseOfMoving poseOfMoving,
-                 QWidget* parent = nullptr);
+  /// @param window  Sees the keys that nothing in it has handled; outlives this.
+  ClearancePanel(const Context& context, ClearanceSearch::PoseOfMoving poseOfMoving, QWidget* window);
+
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  public slots:
   /// Shows lengths in the unit that has been chosen.

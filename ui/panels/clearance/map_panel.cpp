@@ -49,6 +49,7 @@ NumberField* lengthField(QWidget* parent, const char* name, const QString& help)
   auto* field = new NumberField(parent);
   field->setObjectName(QLatin1String(name));
   field->setTrimmed(true);
+  field->setActingAtOnce();
   field->setLength(kMapDecimals);
   field->setQuantityStep(kMapStep);
   field->setHelp(help);

@@ -34,6 +34,7 @@ NumberField* FeelPage::addNumber(const Number& number, const NumberOf& valueOf) 
   auto* field = new NumberField(this);
   field->setObjectName(QLatin1String(number.name));
   field->setTrimmed(true);
+  field->setActingAtOnce();
   field->setDecimals(number.decimals);
   number.isLength ? field->setLength(number.decimals) : field->setUnit(number.unit);
   field->setQuantityRange(number.lower, number.upper);

@@ -180,6 +180,7 @@ void WorkspacePage::makeAngles() {
     auto* field = new NumberField(this);
     field->setObjectName(QLatin1String(names[axis]));
     field->setTrimmed(true);
+    field->setActingAtOnce();
     field->setRange(-360.0, 360.0);
     field->setUnit(QString(QChar(0xB0)));
     field->setToolTip(

@@ -75,6 +75,7 @@ NumberField* SpaceMousePage::addNumber(const Number& number) {
   auto* field = new NumberField(this);
   field->setObjectName(QLatin1String(number.name));
   field->setTrimmed(true);
+  field->setActingAtOnce();
   field->setUnit(number.unit);
   field->setQuantityRange(number.lower, number.upper);
   field->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);

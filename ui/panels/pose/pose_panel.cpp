@@ -151,6 +151,7 @@ NumberField* PosePanel::makeAngle(const QString& name, double limit) {
 }
 
 NumberField* PosePanel::prepared(NumberField* field, const QString& name, const QString& widest) {
+  field->setActingAtOnce();
   field->setObjectName(name);
   // Wide enough beside the arrows, in any font size.
   constexpr int kArrows = 26;

@@ -8,6 +8,7 @@
 #include <QPushButton>
 #include <QRadioButton>
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "ui/widgets/font_scale.h"
 #include "ui/widgets/names.h"
@@ -20,6 +21,17 @@ namespace {
 constexpr double kMinSeparation = 1e-9, kMaxSeparation = 10.0;
 /// Times that can be asked for [s].
 constexpr double kMinSeconds = 1.0, kMaxSeconds = 3600.0;
+
+/// A separation is offered in steps of this [m], so that it can be read: two decimals of a micrometre, far less than any part
+/// is made to.
+constexpr double kSeparationStep = 1e-8;
+/// Share of a step by which products of it are rounded: it must not become a step more.
+constexpr double kStepRounding = 1e-6;
+
+/// Rounds up: less may drown in the rounding of far scenes.
+double readableSeparation(double separation) {
+  return std::ceil(separation / kSeparationStep - kStepRounding) * kSeparationStep;
+}
 
 class SuggestDialog : public QDialog {
  public:
@@ -115,7 +127,7 @@ SuggestionRequest SuggestDialog::request() const {
 std::optional<SuggestionRequest> askForSuggestion(const QString& name, double separation, QWidget* parent) {
   static SuggestionRequest last;
   SuggestionRequest first = last;
-  first.separation = separation;
+  first.separation = readableSeparation(separation);
   SuggestDialog dialog(name, first, parent);
   if (dialog.exec() != QDialog::Accepted) return std::nullopt;
   last = dialog.request();

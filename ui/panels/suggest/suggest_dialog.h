@@ -19,7 +19,7 @@ struct SuggestionRequest {
 
 /// Asks for goal, time and separation. The goal, the time and the turns asked for last are offered again.
 /// @param name        Of what is in hand.
-/// @param separation  Offered first [m].
+/// @param separation  Offered first, rounded up to 0.01 um [m].
 /// @return std::nullopt if the user cancels.
 std::optional<SuggestionRequest> askForSuggestion(const QString& name, double separation, QWidget* parent);
 

@@ -11,7 +11,6 @@
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QSettings>
 #include <QTableView>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -39,9 +38,8 @@
 namespace nearfit::ui {
 namespace {
 
-const QString kCheckThresholdKey = QStringLiteral("sceneCheck/threshold");
-/// Limits, first value and step of the threshold [m].
-constexpr double kFirstCheckThreshold = 1e-3, kMaxCheckThreshold = 1e3, kCheckThresholdStep = 1e-4;
+/// Step of the threshold [m].
+constexpr double kCheckThresholdStep = 1e-4;
 constexpr int kCheckThresholdDecimals = 4;
 constexpr int kCheckPercent = 100;
 /// Max widths that names and the other columns ask for [pixels at the usual font]: some 35 and 25 letters, beyond which names
@@ -53,13 +51,6 @@ constexpr int kRowsAtFirst = 6;
 /// Room around the marks that the camera goes to, as a share of their size, and their min size as a share of
 /// the scene: a tiny clash alone would fill the view without saying where it is.
 constexpr double kRoomAround = 0.5, kLeastPlace = 0.02;
-
-/// The threshold from the settings [m]; the first one if somebody edited it to nonsense.
-double keptCheckThreshold() {
-  bool isNumber = false;
-  const double kept = QSettings().value(kCheckThresholdKey).toDouble(&isNumber);
-  return isNumber && kept >= 0.0 && kept <= kMaxCheckThreshold ? kept : kFirstCheckThreshold;
-}
 
 QString clashesText(std::size_t clashes, std::size_t allowed) {
   const QString count = clashes == 0   ? SceneCheckPanel::tr("no clash")
@@ -136,12 +127,12 @@ void SceneCheckPanel::setUpFields() {
   threshold_->setObjectName(QStringLiteral("sceneCheckThreshold"));
   threshold_->setTrimmed(true);
   threshold_->setLength(kCheckThresholdDecimals);
-  threshold_->setQuantityRange(0.0, kMaxCheckThreshold);
+  threshold_->setQuantityRange(0.0, Preferences::kMaxCheckThreshold);
   threshold_->setQuantityStep(kCheckThresholdStep);
   threshold_->setHelp(tr("Pairs of parts no farther apart than this are listed as near"));
-  threshold_->showQuantity(keptCheckThreshold());
+  threshold_->showQuantity(Preferences::checkThreshold());
   connect(threshold_, &NumberField::quantityEdited, this,
-          [](double metres) { QSettings().setValue(kCheckThresholdKey, metres); });
+          [](double metres) { Preferences::setCheckThreshold(metres); });
   text_ = new QLineEdit(this);
   text_->setObjectName(QStringLiteral("sceneCheckText"));
   text_->setPlaceholderText(tr("Search for a part or a reason"));

@@ -125,6 +125,7 @@ NumberField* PlacingActions::makeStep(const char* name, const QString& label) {
   field->setObjectName(QLatin1String(name));
   field->setAccessibleName(label);
   field->setTrimmed(true);
+  field->setActingAtOnce();
   field->setFixedWidth(forFont(*field, kFieldWidth));
   return field;
 }

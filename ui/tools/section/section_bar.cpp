@@ -112,6 +112,7 @@ void SectionBar::setUpFields() {
   position_->setObjectName(QStringLiteral("sectionPosition"));
   position_->setAccessibleName(tr("Offset of the section"));
   position_->setLength(4);
+  position_->setActingAtOnce();
   position_->setQuantityRange(-kFarthestPlane, kFarthestPlane);
   position_->setQuantityStep(1e-3);
   position_->setToolTip(
