@@ -15,7 +15,8 @@ namespace nearfit {
 namespace {
 
 std::uint8_t byteOf(double channel) noexcept {
-  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(channel, 0.0, 1.0)));
+  // Rounds what is positive without the call of a function, which took a third of a picture's time.
+  return static_cast<std::uint8_t>(255.0 * std::clamp(channel, 0.0, 1.0) + 0.5);
 }
 
 /// A value that is linear over a triangle, and within those of its corners: what is seen nearly along its plane rounds
@@ -120,6 +121,18 @@ void Raster::drawTriangle(const std::array<Corner, 3>& corners, const Colour& co
       colour_[at] = {byteOf(factor * colour.r), byteOf(factor * colour.g), byteOf(factor * colour.b)};
     }
   }
+}
+
+bool Raster::hides(const glm::dvec2& lower, const glm::dvec2& upper, double depth) const noexcept {
+  const glm::dvec3 from = inSamples({lower - 1.0, depth}), to = inSamples({upper + 1.0, depth});
+  const WholeRange rows(from.y, to.y, height_), columns(from.x, to.x, width_);
+  const auto nearest = static_cast<float>(from.z);
+  for (int y = rows.first; y <= rows.last; ++y) {
+    const float* row = depth_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+    if (std::any_of(row + columns.first, row + columns.last + 1, [&](float z) { return z >= nearest; }))
+      return false;
+  }
+  return true;
 }
 
 void Raster::mark(int x, int y, double depth, const Pixel& colour, Cover hidden) noexcept {

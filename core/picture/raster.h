@@ -53,6 +53,10 @@ class Raster {
   void drawLine(const glm::dvec3& from, const glm::dvec3& to, const Pen& pen);
   void drawDot(const glm::dvec3& centre, const Pen& pen);
 
+  /// True if nothing would be seen of what lies within a rectangle and no nearer than a depth [all pixels], lines of up to
+  /// a pixel around it included.
+  bool hides(const glm::dvec2& lower, const glm::dvec2& upper, double depth) const noexcept;
+
   Picture picture() const;
 
  private:

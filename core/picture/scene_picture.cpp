@@ -68,12 +68,33 @@ void drawEdges(const DrawnShapes::Shape& shape, const std::vector<glm::dvec3>& p
     raster.drawLine(places[edges[edge].v0], places[edges[edge].v1], pen);
 }
 
-void drawPart(const DrawnPart& part, const DrawnShapes& shapes, const PictureMap& map, Raster& raster) {
+/// A part with the box that it has on the picture.
+struct BoxedPart {
+  const DrawnPart* part;
+  Aabb box;
+};
+
+/// The parts of which something may be seen, the nearest first: most of what they hide need not be drawn.
+std::vector<BoxedPart> partsFromTheFront(const ScenePicture& scene, const PictureMap& map,
+                                         const Raster& raster) {
+  std::vector<BoxedPart> boxed;
+  for (const DrawnPart& part : scene.parts) {
+    std::array<glm::dvec3, 8> corners = boxCorners(part.geometry->mesh, part.worldFromPart);
+    Aabb box;
+    for (glm::dvec3& corner : corners)
+      box.add(corner = map.placeOf(corner));
+    if (!isOutside(corners, raster)) boxed.push_back({&part, box});
+  }
+  std::ranges::stable_sort(boxed, {}, [](const BoxedPart& each) { return each.box.lower.z; });
+  return boxed;
+}
+
+void drawPart(const BoxedPart& boxed, const DrawnShapes& shapes, const PictureMap& map, Raster& raster) {
+  const DrawnPart& part = *boxed.part;
+  const Aabb& box = boxed.box;
+  if (raster.hides({box.lower.x, box.lower.y}, {box.upper.x, box.upper.y}, box.lower.z - kEdgeToViewer))
+    return;
   const DrawnShapes::Shape& shape = shapes.of(*part.geometry);
-  std::array<glm::dvec3, 8> box = boxCorners(part.geometry->mesh, part.worldFromPart);
-  for (glm::dvec3& corner : box)
-    corner = map.placeOf(corner);
-  if (isOutside(box, raster)) return;
   std::vector<glm::dvec3> places;
   places.reserve(part.geometry->mesh.vertices().size());
   for (const glm::dvec3& vertex : part.geometry->mesh.vertices())
@@ -183,7 +204,7 @@ DrawnShapes::DrawnShapes(std::span<const PartGeometryPtr> geometries, const Prog
 Picture drawn(const ScenePicture& scene, const DrawnShapes& shapes, int width, int height) {
   Raster raster(width, height, kPaper);
   const PictureMap map(scene.view, width, height);
-  for (const DrawnPart& part : scene.parts)
+  for (const BoxedPart& part : partsFromTheFront(scene, map, raster))
     drawPart(part, shapes, map, raster);
   for (const DrawnMark& mark : scene.marks)
     drawMark(mark, map, raster);

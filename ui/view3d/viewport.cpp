@@ -237,14 +237,14 @@ void Viewport::placeParts(const std::vector<PartId>& parts) {
 }
 
 void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
-  show(snapshot, true);
+  takeSnapshot(snapshot, true);
 }
 
 void Viewport::showGhost(const ServoSnapshot& ghost) {
-  show(ghost, false);
+  takeSnapshot(ghost, false);
 }
 
-void Viewport::show(const ServoSnapshot& snapshot, bool isFelt) {
+void Viewport::takeSnapshot(const ServoSnapshot& snapshot, bool isFelt) {
   const bool isSame = shown_ != nullptr && !isPast_ && isFelt == isFelt_ && looksTheSame(*shown_, snapshot) &&
                       !glyphs_->minima().isDue(snapshot.time);
   isFelt_ = isFelt;

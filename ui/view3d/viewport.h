@@ -162,8 +162,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
   /// Bounds of everything that the next picture shows, in the world [m].
   vtkBoundingBox drawnBounds();
   void countPicture();
-  void show(const ServoSnapshot& snapshot, bool isFelt);
-  /// Draws what show() got, from the next picture on.
+  void takeSnapshot(const ServoSnapshot& snapshot, bool isFelt);
+  /// Draws what takeSnapshot() got, from the next picture on.
   void draw(const ServoSnapshot& snapshot);
   void showScale();
   void showMovingPart();

@@ -150,6 +150,48 @@ TEST(ScenePicture, AMarkInsideAPartIsSeenThroughIt) {
   EXPECT_EQ(channelAt(picture, 100, 120, 1), 0);
 }
 
+TEST(ScenePicture, ThePictureDoesNotDependOnTheOrderOfTheParts) {
+  test::RandomValues random(8);
+  const std::vector<PartGeometryPtr> geometries{test::geometryOf(test::boxMesh({1.0, 2.0, 0.5})),
+                                                test::geometryOf(test::icosphereMesh(0.8, 3))};
+  const DrawnShapes shapes(geometries);
+  ScenePicture scene;
+  scene.view = viewAlong({0.3, 1.0, -0.4});
+  scene.view.extent = 6.0;
+  for (std::size_t i = 0; i < 40; ++i) {
+    RigidTransform pose = random.pose();
+    pose.translation = random.vector(4.0);
+    const auto cover = i % 7 == 0 ? Raster::Cover::OneThird : Raster::Cover::Full;
+    scene.parts.push_back({geometries[i % 2], pose, i % 3 == 0 ? kRed : kGrey, cover});
+  }
+  const Picture first = drawn(scene, shapes, 240, 180);
+  for (int round = 0; round < 5; ++round) {
+    for (std::size_t i = scene.parts.size() - 1; i > 0; --i)
+      std::swap(scene.parts[i],
+                scene.parts[static_cast<std::size_t>(random.in(0.0, static_cast<double>(i)))]);
+    EXPECT_EQ(drawn(scene, shapes, 240, 180).rgb, first.rgb);
+  }
+}
+
+TEST(ScenePicture, APartBehindAnotherIsLeftOutAndOneThatLooksOutIsNot) {
+  constexpr int kSize = 200;
+  const PartGeometryPtr wall = test::geometryOf(test::boxMesh({1.0, 0.1, 1.0})),
+                        ball = test::geometryOf(test::icosphereMesh(0.2, 3));
+  const DrawnShapes shapes(std::vector{wall, ball});
+  ScenePicture scene;
+  scene.view = viewFrom(PictureSide::Front);
+  scene.view.extent = 2.0;
+  scene.parts = {{wall, {}, kGrey}};
+  const Picture alone = drawn(scene, shapes, kSize, kSize);
+  scene.parts = {{ball, {{1, 0, 0, 0}, {0.2, 1.0, 0.0}}, kRed}, {wall, {}, kGrey}};
+  EXPECT_EQ(drawn(scene, shapes, kSize, kSize).rgb, alone.rgb);
+  // The wall ends 50 pixels from the middle, the ball one pixel farther.
+  scene.parts[0].worldFromPart.translation.x = 0.31;
+  const Picture both = drawn(scene, shapes, kSize, kSize);
+  EXPECT_TRUE(isWhite(alone, 150.5, 100.0));
+  EXPECT_FALSE(isWhite(both, 150.5, 100.0));
+}
+
 TEST(ScenePicture, PreparingShapesCanBeCancelled) {
   const PartGeometryPtr box = test::geometryOf(test::boxMesh({1, 1, 1}));
   EXPECT_THROW(DrawnShapes(std::vector{box, box}, [](double) { return false; }), Cancelled);
