@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -61,24 +62,27 @@ class StartSearch {
     findNeighbours();
   }
 
-  /// The shift that leaves most of the touched bodies; std::nullopt if none leaves any.
+  /// A shift that leaves every touched body that can be left at all; std::nullopt if none does. Between two flush walls
+  /// each can be left, but only into the other.
   std::optional<glm::dvec3> find() {
     const auto touched = std::ranges::count_if(neighbours_, [](const auto& n) { return !n->isClear(); });
     if (touched == 0) return std::nullopt;
     const std::vector<glm::dvec3> directions = directionsToTry();
-    std::optional<glm::dvec3> best;
-    std::ptrdiff_t most = 0;
+    std::vector<Attempt> attempts;
     for (const double factor : kShifts) {
       for (const glm::dvec3& direction : directions) {
-        const glm::dvec3 shift = factor * need_ * direction;
-        const std::ptrdiff_t left = countLeft(shift);
-        if (left <= most) continue;
-        best = shift;
-        most = left;
-        if (left == touched) return best;
+        Attempt attempt = attemptOf(factor * need_ * direction);
+        const auto left = std::ranges::count(attempt.isLeft, true);
+        if (left == touched) return attempt.shift;
+        if (left > 0) attempts.push_back(std::move(attempt));
       }
     }
-    return best;
+    std::vector<bool> canBeLeft(neighbours_.size(), false);
+    for (const Attempt& attempt : attempts)
+      for (std::size_t i = 0; i < canBeLeft.size(); ++i)
+        canBeLeft[i] = canBeLeft[i] || attempt.isLeft[i];
+    const auto best = std::ranges::find(attempts, canBeLeft, &Attempt::isLeft);
+    return best == attempts.end() ? std::nullopt : std::optional(best->shift);
   }
 
  private:
@@ -164,15 +168,24 @@ class StartSearch {
     }
   }
 
-  /// Number of touched bodies that the part is clear of after the shift; -1 if it comes too near another.
-  std::ptrdiff_t countLeft(const glm::dvec3& shift) {
-    std::ptrdiff_t left = 0;
-    for (const auto& near : neighbours_) {
-      const bool isLeft = leaves(*near, shift);
-      if (near->isClear() && !isLeft) return -1;
-      if (!near->isClear() && isLeft) ++left;
+  /// A shift, and which of the touched neighbours the part is clear of after it: none if it comes too near another.
+  struct Attempt {
+    glm::dvec3 shift{0.0};
+    std::vector<bool> isLeft;
+  };
+
+  Attempt attemptOf(const glm::dvec3& shift) {
+    Attempt attempt{shift, std::vector<bool>(neighbours_.size(), false)};
+    for (std::size_t i = 0; i < neighbours_.size(); ++i) {
+      const bool isLeft = leaves(*neighbours_[i], shift);
+      if (!neighbours_[i]->isClear()) {
+        attempt.isLeft[i] = isLeft;
+      } else if (!isLeft) {
+        attempt.isLeft.assign(neighbours_.size(), false);
+        break;
+      }
     }
-    return left;
+    return attempt;
   }
 
   bool leaves(StartNeighbour& near, const glm::dvec3& shift) {

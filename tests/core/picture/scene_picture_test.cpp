@@ -185,11 +185,11 @@ TEST(ScenePicture, APartBehindAnotherIsLeftOutAndOneThatLooksOutIsNot) {
   const Picture alone = drawn(scene, shapes, kSize, kSize);
   scene.parts = {{ball, {{1, 0, 0, 0}, {0.2, 1.0, 0.0}}, kRed}, {wall, {}, kGrey}};
   EXPECT_EQ(drawn(scene, shapes, kSize, kSize).rgb, alone.rgb);
-  // The wall ends 50 pixels from the middle, the ball one pixel farther.
-  scene.parts[0].worldFromPart.translation.x = 0.31;
+  // The wall ends 50 pixels from the middle, the ball three pixels farther.
+  scene.parts[0].worldFromPart.translation.x = 0.33;
   const Picture both = drawn(scene, shapes, kSize, kSize);
-  EXPECT_TRUE(isWhite(alone, 150.5, 100.0));
-  EXPECT_FALSE(isWhite(both, 150.5, 100.0));
+  EXPECT_TRUE(isWhite(alone, 152.0, 100.0));
+  EXPECT_FALSE(isWhite(both, 152.0, 100.0));
 }
 
 TEST(ScenePicture, PreparingShapesCanBeCancelled) {
