@@ -154,6 +154,8 @@ void DesktopPathTest::aRecordingIsSavedAsAPathOfTheTimelinesRange() {
   QCOMPARE(path.poses.front().time, 1.0);
   QCOMPARE(path.poses.back().time, 2.0);
   QVERIFY(isNear(path.poses.front().worldFromLead.translation.x, 0.01, 1e-9));
+  // The file is there before the commands are free again.
+  QTRY_VERIFY(f.d.action("pathWhole")->isEnabled());
   f.d.choose("pathWhole");
   QCOMPARE(timeline->range(), std::pair(0.0, 2.0));
 }

@@ -89,7 +89,10 @@ void FeelPanelTest::longTextsDoNotWidenThePanelBeyondItsDock() {
   snapshot->distance = 1e-9;
   snapshot->isDistanceBound = true;
   // One minimum is missing, so that the distance to the others is a bound.
-  snapshot->lmdCount = 1;
+  snapshot->lmds[0].other = PartId{9};
+  snapshot->lmds[0].lmd.distance = 1e-3;
+  snapshot->storedLmds = 1;
+  snapshot->lmdCount = 2;
   snapshot->overlappingCount = 2;
   panel.showSnapshot(*snapshot, scene);
   const auto* distance = panel.findChild<QLabel*>(QStringLiteral("distance"));
