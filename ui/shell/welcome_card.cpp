@@ -25,8 +25,6 @@ namespace {
 constexpr int kMaxRecent = 4;
 /// To the upper and lower edge of the parent, where the card scrolls, and the width of its border [pixels].
 constexpr int kAround = 4, kBorder = 1;
-/// Beyond the width of the hint's longest line, which rounding would wrap [pixels].
-constexpr int kLineSlack = 2;
 
 }  // namespace
 
@@ -35,9 +33,6 @@ WelcomeCard::WelcomeCard(Session& session, const QList<QAction*>& ways, QWidget*
       session_(session),
       content_(new QWidget(this)),
       recent_(new QWidget(content_)),
-      hint_(new QLabel(tr("Feel how parts fit together before they exist.\n"
-                          "Add two or more meshes, take one in hand, press Feel."),
-                       content_)),
       recentRows_(new QVBoxLayout(recent_)) {
   setObjectName(QStringLiteral("welcome"));
   setStyleSheet(QStringLiteral(
@@ -51,13 +46,14 @@ WelcomeCard::WelcomeCard(Session& session, const QList<QAction*>& ways, QWidget*
   auto* title = new QLabel(QStringLiteral("Nearfit"), this);
   title->setStyleSheet(QStringLiteral("font-size: 20pt; font-weight: bold; color: #1c252e"));
   title->setAlignment(Qt::AlignHCenter);
-  hint_->setObjectName(QStringLiteral("welcomeHint"));
-  hint_->setAlignment(Qt::AlignHCenter);
-  hint_->setWordWrap(true);
-  hint_->setStyleSheet(QStringLiteral("color: %1; padding-bottom: 10px").arg(colours::kMutedText.name()));
+  auto* hint = new QLabel(tr("Feel how parts fit together before they exist.\n"
+                             "Add two or more meshes, take one in hand, press Feel."),
+                          this);
+  hint->setAlignment(Qt::AlignHCenter);
+  hint->setStyleSheet(QStringLiteral("color: %1; padding-bottom: 10px").arg(colours::kMutedText.name()));
   layout->addWidget(picture);
   layout->addWidget(title);
-  layout->addWidget(hint_);
+  layout->addWidget(hint);
   for (QAction* way : ways)
     addButton(way, way == ways.constFirst());
   recentRows_->setContentsMargins(0, 8, 0, 0);
@@ -124,27 +120,13 @@ bool WelcomeCard::eventFilter(QObject* watched, QEvent* event) {
   return QFrame::eventFilter(watched, event);
 }
 
-int WelcomeCard::usualWidth() const {
-  const QMargins around = content_->layout()->contentsMargins();
-  const int lines = hint_->fontMetrics().size(0, hint_->text()).width() + kLineSlack;
-  return std::max(content_->minimumSizeHint().width(), lines + around.left() + around.right());
-}
-
 void WelcomeCard::fit() {
   ensurePolished();
-  // The style sheet's border makes a frame, besides the layout's margin.
-  const QMargins frame = contentsMargins(), margin = layout()->contentsMargins();
-  const QSize edges(frame.left() + frame.right() + margin.left() + margin.right(),
-                    frame.top() + frame.bottom() + margin.top() + margin.bottom());
-  const QSize room =
-      (parentWidget()->size() - QSize(2 * kAround, 2 * kAround) - edges).expandedTo(QSize(0, 0));
-  const int usual = usualWidth();
-  QSize inside(std::min(usual, room.width()), 0);
-  inside.setHeight(content_->heightForWidth(inside.width()));
-  if (inside.height() > room.height())
-    inside = {std::min(usual + style()->pixelMetric(QStyle::PM_ScrollBarExtent), room.width()),
-              room.height()};
-  resize(inside + edges);
+  QSize size = content_->sizeHint() + QSize(2 * kBorder, 2 * kBorder);
+  const int room = parentWidget()->height() - 2 * kAround;
+  if (size.height() > room)
+    size = {size.width() + style()->pixelMetric(QStyle::PM_ScrollBarExtent), std::max(room, 0)};
+  resize(size);
   move(parentWidget()->rect().center() - rect().center());
 }
 

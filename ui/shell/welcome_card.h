@@ -7,7 +7,6 @@
 #include "core/session/scene_events.h"
 
 class QAction;
-class QLabel;
 class QVBoxLayout;
 
 namespace nearfit {
@@ -17,7 +16,7 @@ class Session;
 namespace nearfit::ui {
 
 /// A card in the middle of its parent that offers ways to begin while the scene is empty, and the scenes opened last.
-/// Its text wraps where its parent is narrower, and it scrolls where that is lower.
+/// Scrolls where its parent is lower.
 class WelcomeCard : public QFrame {
   Q_OBJECT
 
@@ -39,12 +38,9 @@ class WelcomeCard : public QFrame {
   void showIfEmpty();
   /// As large as its content, or as its parent has room for, in the middle.
   void fit();
-  /// Width at which the hint wraps nowhere and no button is cut off [pixels].
-  int usualWidth() const;
 
   const Session& session_;
   QWidget *content_, *recent_;
-  QLabel* hint_;
   QVBoxLayout* recentRows_;
   Subscription changes_;
 };
