@@ -122,7 +122,11 @@ bool WelcomeCard::eventFilter(QObject* watched, QEvent* event) {
 
 void WelcomeCard::fit() {
   ensurePolished();
-  QSize size = content_->sizeHint() + QSize(2 * kBorder, 2 * kBorder);
+  ensurePolished();
+  // The style sheet's border makes a frame, besides the layout's margin.
+  const QMargins frame = contentsMargins();
+  QSize size = content_->sizeHint() +
+               QSize(2 * kBorder + frame.left() + frame.right(), 2 * kBorder + frame.top() + frame.bottom());
   const int room = parentWidget()->height() - 2 * kAround;
   if (size.height() > room)
     size = {size.width() + style()->pixelMetric(QStyle::PM_ScrollBarExtent), std::max(room, 0)};
