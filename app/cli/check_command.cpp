@@ -15,6 +15,7 @@
 #include "app/cli/document_options.h"
 #include "app/cli/output.h"
 #include "core/base/error.h"
+#include "core/files/atomic_write.h"
 #include "core/mesh/check/unrepaired.h"
 #include "core/report/scene_export.h"
 #include "core/scene/document_load.h"

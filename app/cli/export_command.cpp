@@ -11,6 +11,7 @@
 #include "app/cli/output.h"
 #include "app/cli/scene_part.h"
 #include "core/base/error.h"
+#include "core/files/atomic_write.h"
 #include "core/report/scene_export.h"
 #include "core/scene/scene_file.h"
 

@@ -30,16 +30,6 @@ void flushOutput() {
   if (!hasArrived) failOutput(errno != 0 ? errno : EIO);
 }
 
-void checkTarget(const std::filesystem::path& target, std::span<const std::filesystem::path> inputs) {
-  for (const std::filesystem::path& input : inputs) {
-    std::error_code missing;
-    if (std::filesystem::equivalent(target, input, missing)) {
-      throw UsageError(target.string(), "it is an input of this command and would be overwritten",
-                       "name another file to write");
-    }
-  }
-}
-
 void printError(std::string_view message) noexcept {
   try {
     const std::string line = "nearfit-cli: " + oneLine(message) + "\n";

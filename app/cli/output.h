@@ -26,9 +26,6 @@ void printWarnings(const PartGeometry& geometry);
 /// Writes a line to stderr for each reason why the cache is not used as the environment says.
 void printCacheWarnings();
 
-/// Throws UsageError if `target` is one of the files that the command reads, by whatever path or link.
-void checkTarget(const std::filesystem::path& target, std::span<const std::filesystem::path> inputs);
-
 /// Thrown by a command that failed and has already said so on stderr: exit code 1, no further line.
 class ReportedFailure : public std::exception {
  public:

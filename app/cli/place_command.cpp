@@ -229,7 +229,7 @@ void runPlace(const PlaceOptions& options) {
   job.isArming = options.isArming;
   job.isCalibrating = options.isCalibrating;
   job.parameters.haptics = withOptions(scene.haptics(), options.haptics);
-  auto servoScene = std::make_unique<ServoScene>(*makeServoScene(scene));
+  auto servoScene = makeServoScene(scene);
   if (job.parameters.haptics.mode == HapticMode::Proxy) startApart(*servoScene);
   job.scene = std::move(servoScene);
   const std::string& name = options.group.empty() ? options.part : options.group;

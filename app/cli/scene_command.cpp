@@ -21,6 +21,7 @@
 #include "app/cli/scene_refine_command.h"
 #include "app/cli/scene_rule_command.h"
 #include "core/base/error.h"
+#include "core/files/atomic_write.h"
 #include "core/scene/document_load.h"
 #include "core/scene/document_parts.h"
 #include "core/scene/haptic_limits.h"

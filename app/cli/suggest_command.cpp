@@ -14,6 +14,7 @@
 #include "app/cli/output.h"
 #include "app/cli/scene_part.h"
 #include "core/base/error.h"
+#include "core/files/atomic_write.h"
 #include "core/path/path_file.h"
 #include "core/path/path_search.h"
 #include "core/scene/drawn_pose.h"

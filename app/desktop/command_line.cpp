@@ -114,12 +114,7 @@ void requireTargets(const Options& options, const QStringList& files) {
   }
   for (const std::filesystem::path& output : {picture, record}) {
     if (output.empty()) continue;
-    for (const std::filesystem::path& input : inputs) {
-      if (isSameTarget(output, input)) {
-        throw UsageError(output.string(), "it is opened by this run, and would be overwritten",
-                         "name another file to write");
-      }
-    }
+    checkTarget(output, inputs);
     checkReplaceable(output);
   }
 }

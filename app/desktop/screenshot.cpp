@@ -1,21 +1,17 @@
 #include "app/desktop/screenshot.h"
 
-#include <QBuffer>
-#include <QByteArray>
 #include <QCoreApplication>
+#include <QImage>
 #include <QPixmap>
 #include <QTimer>
-#include <cstddef>
 #include <cstdio>
-#include <string_view>
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/files/atomic_write.h"
 #include "ui/files/document.h"
 #include "ui/panels/feel/feel_control.h"
 #include "ui/view3d/viewport.h"
-#include "ui/widgets/paths.h"
+#include "ui/widgets/picture_file.h"
 
 namespace nearfit::desktop {
 namespace {
@@ -77,13 +73,8 @@ void Screenshot::waitForMinima(const ServoSnapshot& snapshot) {
 void Screenshot::write() {
   if (std::exchange(isWriting_, true) || hasFailed_) return;
   application_.window().viewport().completePicture();
-  QByteArray bytes;
-  QBuffer buffer(&bytes);
-  buffer.open(QIODevice::WriteOnly);
-  application_.window().grab().save(&buffer, "PNG");
   try {
-    atomicWrite(ui::toPath(output_),
-                std::string_view(bytes.constData(), static_cast<std::size_t>(bytes.size())));
+    ui::writePicture(application_.window().grab().toImage(), output_);
   } catch (const Error& error) {
     fail(QString::fromStdString(error.what()));
     return;

@@ -76,7 +76,7 @@ void ServoController::start(ui::Hand hand, const QString& device) {
 
 std::unique_ptr<ServoScene> ServoController::servoScene() const {
   const Scene& scene = session_.scene();
-  auto made = std::make_unique<ServoScene>(*makeServoScene(scene));
+  auto made = makeServoScene(scene);
   if (!guidance_ || scene.get(made->moving.id).name != guidance_->parts.front()) return made;
   std::vector<GuidancePose> way = wayOf(*guidance_, made->centreInPart);
   if (way.size() > 1)
@@ -84,8 +84,9 @@ std::unique_ptr<ServoScene> ServoController::servoScene() const {
   return made;
 }
 
-std::unique_ptr<ServoScene> ServoController::startScene() const {
+std::unique_ptr<ServoScene> ServoController::startScene(const std::optional<RigidTransform>& start) const {
   auto made = servoScene();
+  if (start) made->moving.worldFromPart = *start;
   if (session_.scene().haptics().mode == HapticMode::Proxy) startApart(*made);
   return made;
 }
@@ -338,9 +339,7 @@ void ServoController::restartAtPart() {
   loop_.pollSnapshot();
   const ServoSnapshot& last = loop_.snapshot();
   const RigidTransform part = last.tick > 0 && last.proxy.isFinite() ? last.proxy : startPose_;
-  auto moved = servoScene();
-  moved->moving.worldFromPart = part;
-  if (session_.scene().haptics().mode == HapticMode::Proxy) startApart(*moved);
+  auto moved = startScene(part);
   DevicePtr hand = startedHand(*moved);
   runOn(std::move(hand), std::move(moved));
   emit handReturned(startPose_);

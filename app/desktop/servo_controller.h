@@ -89,7 +89,8 @@ class ServoController : public QObject {
   /// Returns the session's scene for the servo, with the guidance if that is of what is in hand.
   std::unique_ptr<ServoScene> servoScene() const;
   /// The same to begin with: in the proxy mode, the part is a little off what it touches (startApart()).
-  std::unique_ptr<ServoScene> startScene() const;
+  /// @param start  Where the part begins; std::nullopt: where the scene has it.
+  std::unique_ptr<ServoScene> startScene(const std::optional<RigidTransform>& start = {}) const;
   /// Creates and starts the status' hand, which needs no opening.
   DevicePtr startedHand(const ServoScene& scene) const;
   void open(const QString& device);

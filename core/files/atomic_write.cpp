@@ -234,6 +234,16 @@ bool isSameTarget(const fs::path& a, const fs::path& b) {
   return resolved(a) == resolved(b);
 }
 
+void checkTarget(const fs::path& target, std::span<const fs::path> inputs) {
+  for (const fs::path& input : inputs) {
+    std::error_code missing;
+    if (fs::equivalent(target, input, missing)) {
+      throw UsageError(target.string(), "it is an input of this command and would be overwritten",
+                       "name another file to write");
+    }
+  }
+}
+
 void removeAbandoned(const fs::path& folder) noexcept {
   constexpr int kMaxEntries = 10'000;
   try {

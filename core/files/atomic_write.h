@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace nearfit {
@@ -76,6 +77,9 @@ void checkReplaceable(const std::filesystem::path& file);
 /// True if AtomicFiles for the two paths would replace one file: they are one existing file, by device and
 /// inode, or name the same new one, whatever their spelling and links.
 bool isSameTarget(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// Throws UsageError if `target` is one of the files that the command reads, by whatever path or link.
+void checkTarget(const std::filesystem::path& target, std::span<const std::filesystem::path> inputs);
 
 /// Removes hidden temporary files from a folder that programs left there when they were killed: the user's
 /// own, without a change for a minute, whose process does not run and that no program anywhere holds open.

@@ -50,10 +50,7 @@ class PictureMap {
 };
 
 /// True if a box of places is outside the picture.
-bool isOutside(std::span<const glm::dvec3> places, const Raster& raster) noexcept {
-  Aabb box;
-  for (const glm::dvec3& p : places)
-    box.add(p);
+bool isOutside(const Aabb& box, const Raster& raster) noexcept {
   return box.upper.x < 0.0 || box.upper.y < 0.0 || box.lower.x > raster.width() ||
          box.lower.y > raster.height();
 }
@@ -79,11 +76,10 @@ std::vector<BoxedPart> partsFromTheFront(const ScenePicture& scene, const Pictur
                                          const Raster& raster) {
   std::vector<BoxedPart> boxed;
   for (const DrawnPart& part : scene.parts) {
-    std::array<glm::dvec3, 8> corners = boxCorners(part.geometry->mesh, part.worldFromPart);
     Aabb box;
-    for (glm::dvec3& corner : corners)
-      box.add(corner = map.placeOf(corner));
-    if (!isOutside(corners, raster)) boxed.push_back({&part, box});
+    for (const glm::dvec3& corner : boxCorners(part.geometry->mesh, part.worldFromPart))
+      box.add(map.placeOf(corner));
+    if (!isOutside(box, raster)) boxed.push_back({&part, box});
   }
   std::ranges::stable_sort(boxed, {}, [](const BoxedPart& each) { return each.box.lower.z; });
   return boxed;

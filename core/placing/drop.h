@@ -45,8 +45,8 @@ double dropGap(double size) noexcept;
 /// The travel is exact up to rounding (straight_contact.h) and free of contact before its end, which is `gap`
 /// short of contact along the direction. Exact predicates verify that no two bodies meet at the end, and their distance
 /// is verified to be above the deviation of their flats (NormalConeTree::deviation()), so that the part is felt when it is
-/// taken in hand; where the gap is too small for that, or rounding is coarser than it, more is left. Parts already within the gap do not move, so dropping
-/// again changes nothing.
+/// taken in hand; where the gap is too small for that, or rounding is coarser than it, more is left. Parts already
+/// within the gap do not move, so dropping again changes nothing.
 ///
 /// A part that is moved by itself goes along what its joints allow of the direction.
 ///

@@ -40,7 +40,7 @@ double ServoScene::deviation(const Body& other) const noexcept {
   return other.geometry->tree().deviation() + moving.geometry->tree().deviation();
 }
 
-std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene) {
+std::unique_ptr<ServoScene> makeServoScene(const Scene& scene) {
   MovingBody moving = movingBody(scene);
   auto result = std::make_unique<ServoScene>();
   result->setMoving({moving.id, moving.geometry, moving.worldFromBody});

@@ -60,6 +60,6 @@ struct ServoScene {
 /// missing hierarchies, which takes seconds for millions of triangles; prepareHierarchies() does so
 /// beforehand, with progress (prepareToFeel() with those of a group in hand). Throws UsageError if the scene has no
 /// moving part, or too many joints hold the moving group.
-std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene);
+std::unique_ptr<ServoScene> makeServoScene(const Scene& scene);
 
 }  // namespace nearfit

@@ -1,5 +1,6 @@
 #include "ui/shell/guide_dialog.h"
 
+#include <QCursor>
 #include <QDesktopServices>
 #include <QDir>
 #include <QFileInfo>
@@ -13,7 +14,6 @@
 #include <QToolTip>
 #include <QUrl>
 #include <QVBoxLayout>
-#include <algorithm>
 
 namespace nearfit::ui {
 namespace {
@@ -56,11 +56,14 @@ GuideDialog::GuideDialog(const QString& file, QWidget* parent)
   setAttribute(Qt::WA_DeleteOnClose);
   setWindowTitle(tr("User guide"));
   page_->setObjectName(QStringLiteral("guidePage"));
+  page_->setAccessibleName(tr("Page"));
   page_->setOpenLinks(false);
   page_->document()->setDocumentMargin(16);
   headings_->setObjectName(QStringLiteral("guideHeadings"));
+  headings_->setAccessibleName(tr("Headings"));
   headings_->setMaximumWidth(fontMetrics().averageCharWidth() * 34);
   search_->setObjectName(QStringLiteral("guideSearch"));
+  search_->setAccessibleName(tr("Search this page"));
   search_->setPlaceholderText(tr("Search this page; Enter finds the next place"));
   search_->setClearButtonEnabled(true);
   auto* back = new QPushButton(tr("Back"), this);

@@ -10,8 +10,9 @@ namespace nearfit::ui {
 /// A field for a number with a unit. Takes units and arithmetic as core/text/quantity.h does: "1/4 in",
 /// "2*(3 mm + 0.5 cm)", "+= 5" to add to the present value. Commits on Return, loss of focus or a step, not
 /// on each key. Text that cannot be read stays as typed, marked and with the mistake explained, until it
-/// is corrected or reverted by Escape, or left if the field acts at once; the value does not change meanwhile. A double click selects all. Large numbers
-/// are shown with fewer decimals, so that their unit has room; the value keeps them.
+/// is corrected or reverted by Escape, or left if the field acts at once; the value does not change meanwhile. A
+/// double click selects all. Large numbers are shown with fewer decimals, so that their unit has room; the value
+/// keeps them.
 ///
 /// value() and other members of QDoubleSpinBox use the shown unit; quantity() and its like use SI.
 class NumberField : public QDoubleSpinBox {

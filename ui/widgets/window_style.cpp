@@ -13,7 +13,7 @@ namespace {
 /// Colours that Fusion derives frames from in the dark theme: of check boxes and radio
 /// buttons, and of fields.
 constexpr QRgb kFrameInDark = 0xffb4c0cc, kFieldFrameInDark = 0xff7d8995;
-/// Of buttons that are checked.
+/// Colours of a button that is checked, in the light and the dark theme.
 constexpr QRgb kChecked = 0xffbcd8f4, kCheckedInDark = 0xff2b5a8c;
 
 /// Returns a palette with another colour for frames. Equal arguments give the same palette, as Fusion

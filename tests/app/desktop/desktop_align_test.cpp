@@ -374,7 +374,7 @@ void DesktopAlignTest::aSeeThroughPartIsTheTargetWhereOnlyThePartThatMovesIsBehi
   QTRY_COMPARE(d.text("alignHint"), QStringLiteral("Flat face of fixed"));
 }
 
-/// As the measuring bar did, it gave them to the status bar.
+/// The bar gave the keys to the status bar, as the measuring bar did.
 void DesktopAlignTest::endedByItsButtonsItGivesTheKeysToTheView() {
   DesktopDriver d;
   begin(d);

@@ -179,7 +179,7 @@ void DesktopSectionTest::switchedOffNothingIsLeftOfIt() {
   QVERIFY(cut.d.comesToRest());
 }
 
-/// As the measuring bar did, it gave them to the status bar.
+/// The bar gave the keys to the status bar, as the measuring bar did.
 void DesktopSectionTest::closedByItsButtonItGivesTheKeysToTheView() {
   SectionDriver cut;
   cut.begin("sectionY");

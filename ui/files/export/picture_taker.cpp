@@ -2,7 +2,6 @@
 
 #include <QAction>
 #include <QApplication>
-#include <QBuffer>
 #include <QClipboard>
 #include <QFileInfo>
 #include <QImage>
@@ -10,28 +9,15 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/files/atomic_write.h"
 #include "ui/files/export/picture_dialog.h"
 #include "ui/widgets/paths.h"
+#include "ui/widgets/picture_file.h"
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/save_file.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 namespace {
-
-constexpr int kJpegQuality = 92;  ///< Out of 100: edges of parts stay clean.
-
-/// Returns the picture as PNG, or as JPEG if the file's suffix says so. Throws FileError.
-QByteArray encoded(const QImage& picture, const QString& file) {
-  const QString suffix = QFileInfo(file).suffix().toLower();
-  const bool isJpeg = suffix == QLatin1String("jpg") || suffix == QLatin1String("jpeg");
-  QBuffer buffer;
-  buffer.open(QIODevice::WriteOnly);
-  if (!picture.save(&buffer, isJpeg ? "JPG" : "PNG", isJpeg ? kJpegQuality : -1))
-    throw FileError(toPath(file).string(), "the picture could not be encoded", "choose a smaller size");
-  return buffer.data();
-}
 
 QString sizeText(const QImage& picture) {
   return QObject::tr("%1 × %2 pixels").arg(picture.width()).arg(picture.height());
@@ -90,8 +76,7 @@ void PictureTaker::write(QImage picture, const QString& file) {
   picture.setText(QStringLiteral("Software"), QStringLiteral("Nearfit"));
   const QString told = tr("Saved %1, %2").arg(QFileInfo(file).fileName(), sizeText(picture));
   const auto job = [picture = std::move(picture), file](const ProgressCallback&) {
-    const QByteArray bytes = encoded(picture, file);
-    atomicWrite(toPath(file), std::string_view(bytes.constData(), static_cast<std::size_t>(bytes.size())));
+    writePicture(picture, file);
   };
   task_.run(job, [this, file, told](const std::exception_ptr& error) {
     if (error) {

@@ -1,6 +1,5 @@
 #include "ui/panels/plots/plot_panel.h"
 
-#include <QBuffer>
 #include <QComboBox>
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -14,6 +13,7 @@
 #include "core/files/atomic_write.h"
 #include "ui/panels/plots/plot_view.h"
 #include "ui/widgets/paths.h"
+#include "ui/widgets/picture_file.h"
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/save_file.h"
 #include "ui/widgets/theme.h"
@@ -175,11 +175,8 @@ void PlotPanel::exportPicture() {
   const QPixmap pixmap = view_->toPixmap();
   const QString file = askForFile(tr("Export picture"), QStringLiteral("png"));
   if (file.isEmpty()) return;
-  QByteArray bytes;
-  QBuffer buffer(&bytes);
-  pixmap.save(&buffer, "PNG");
   try {
-    atomicWrite(toPath(file), {bytes.constData(), static_cast<std::size_t>(bytes.size())});
+    writePicture(pixmap.toImage(), file);
     Preferences::rememberFolderOf(file);
     emit noted(tr("Exported %1").arg(QFileInfo(file).fileName()));
   } catch (...) {
