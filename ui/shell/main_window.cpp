@@ -129,7 +129,7 @@ QDockWidget* MainWindow::addDock(const char* name, const QString& title, QWidget
   dock->setWidget(content);
   dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
   addDockWidget(area, dock);
-  panelsMenu_->addAction(dock->toggleViewAction());
+  panelsMenu_->addAction(makePanelEntry(*dock));
   return dock;
 }
 

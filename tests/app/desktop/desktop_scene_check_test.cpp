@@ -374,9 +374,9 @@ void DesktopSceneCheckTest::aHiddenPanelMarksNothing() {
   auto* label = f.d.window().viewport().findChild<QLabel*>(QStringLiteral("pairLabel"));
   QTRY_VERIFY(label->isVisible());
   auto* dock = f.d.widget<QDockWidget>("sceneCheckDock");
-  f.d.choose(dock->toggleViewAction());
+  f.d.choose(panelEntry(dock));
   QTRY_VERIFY(!label->isVisible());
-  f.d.choose(dock->toggleViewAction());
+  f.d.choose(panelEntry(dock));
   QTRY_VERIFY(label->isVisible());
 }
 
