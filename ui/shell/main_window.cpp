@@ -231,7 +231,7 @@ void MainWindow::makeCheckPanel(QDockWidget& neighbour) {
 }
 
 void MainWindow::makeSceneCheckPanel(QDockWidget& neighbour) {
-  sceneCheck_ = new SceneCheckPanel({session_, *viewport_}, this);
+  sceneCheck_ = new SceneCheckPanel({session_, *selection_, *viewport_}, this);
   listenTo(*sceneCheck_);
   connect(units_, &UnitMenu::unitChanged, sceneCheck_, &SceneCheckPanel::refresh);
   QDockWidget* dock = addDock("sceneCheckDock", tr("Scene check"),
