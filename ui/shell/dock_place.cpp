@@ -1,5 +1,6 @@
 #include "ui/shell/dock_place.h"
 
+#include <QAction>
 #include <QDockWidget>
 #include <QLayout>
 #include <QMainWindow>
@@ -61,6 +62,30 @@ void bringToFront(QDockWidget& dock) {
   });
 }
 
+void showHideOrRaise(QDockWidget& dock) {
+  isBehindTab(dock) ? bringToFront(dock) : dock.toggleViewAction()->trigger();
+}
+
+QAction* makePanelEntry(QDockWidget& dock) {
+  const QAction* toggle = dock.toggleViewAction();
+  auto* entry = new QAction(toggle->text(), &dock);
+  entry->setObjectName(dock.objectName() + QStringLiteral("Entry"));
+  entry->setCheckable(true);
+  entry->setToolTip(QObject::tr("Show or hide this panel; one behind another tab comes to the front"));
+  const auto follow = [entry, toggle] {
+    entry->setText(toggle->text());
+    entry->setChecked(toggle->isChecked());
+  };
+  follow();
+  QObject::connect(toggle, &QAction::changed, entry, follow);
+  QObject::connect(entry, &QAction::triggered, &dock, [&dock, follow] {
+    showHideOrRaise(dock);
+    // The choice has changed the mark, also where the dock stays open.
+    follow();
+  });
+  return entry;
+}
+
 DockButton::DockButton(QDockWidget& dock, QWidget* parent) : QToolButton(parent), dock_(dock) {
   setObjectName(dock.objectName() + QStringLiteral("Button"));
   setDefaultAction(dock.toggleViewAction());
@@ -68,7 +93,7 @@ DockButton::DockButton(QDockWidget& dock, QWidget* parent) : QToolButton(parent)
 }
 
 void DockButton::nextCheckState() {
-  isBehindTab(dock_) ? bringToFront(dock_) : QToolButton::nextCheckState();
+  showHideOrRaise(dock_);
 }
 
 }  // namespace nearfit::ui

@@ -2,6 +2,7 @@
 
 #include <QToolButton>
 
+class QAction;
 class QDockWidget;
 
 namespace nearfit::ui {
@@ -10,7 +11,14 @@ namespace nearfit::ui {
 /// height that its content asks for, though no more than a share of the window's; a higher one stays.
 void bringToFront(QDockWidget& dock);
 
-/// A button that shows and hides a dock; one that is only behind another tab comes to the front.
+/// Shows a hidden dock, hides one that is seen, and brings one to the front that is only behind another tab.
+void showHideOrRaise(QDockWidget& dock);
+
+/// Returns a checkable entry for menus that does that; checked while the dock is open. Named as the dock, with "Entry".
+/// @param dock  Becomes its parent.
+QAction* makePanelEntry(QDockWidget& dock);
+
+/// A button that does that.
 class DockButton : public QToolButton {
  public:
   /// @param dock    Outlives this.

@@ -129,7 +129,7 @@ QDockWidget* MainWindow::addDock(const char* name, const QString& title, QWidget
   dock->setWidget(content);
   dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
   addDockWidget(area, dock);
-  panelsMenu_->addAction(dock->toggleViewAction());
+  panelsMenu_->addAction(makePanelEntry(*dock));
   return dock;
 }
 
@@ -231,7 +231,7 @@ void MainWindow::makeCheckPanel(QDockWidget& neighbour) {
 }
 
 void MainWindow::makeSceneCheckPanel(QDockWidget& neighbour) {
-  sceneCheck_ = new SceneCheckPanel({session_, *viewport_}, this);
+  sceneCheck_ = new SceneCheckPanel({session_, *selection_, *viewport_}, this);
   listenTo(*sceneCheck_);
   connect(units_, &UnitMenu::unitChanged, sceneCheck_, &SceneCheckPanel::refresh);
   QDockWidget* dock = addDock("sceneCheckDock", tr("Scene check"),

@@ -23,7 +23,7 @@ namespace nearfit::ui {
 namespace {
 
 constexpr int kMaxRecent = 4;
-/// To the upper and lower edge of the parent, where the card scrolls, and the width of its border [pixels].
+/// To the edges of the parent, where the card scrolls, and the width of its border [pixels].
 constexpr int kAround = 4, kBorder = 1;
 
 }  // namespace
@@ -33,6 +33,9 @@ WelcomeCard::WelcomeCard(Session& session, const QList<QAction*>& ways, QWidget*
       session_(session),
       content_(new QWidget(this)),
       recent_(new QWidget(content_)),
+      hint_(new QLabel(tr("Feel how parts fit together before they exist.\n"
+                          "Add two or more meshes, take one in hand, press Feel."),
+                       this)),
       recentRows_(new QVBoxLayout(recent_)) {
   setObjectName(QStringLiteral("welcome"));
   setStyleSheet(QStringLiteral(
@@ -46,21 +49,18 @@ WelcomeCard::WelcomeCard(Session& session, const QList<QAction*>& ways, QWidget*
   auto* title = new QLabel(QStringLiteral("Nearfit"), this);
   title->setStyleSheet(QStringLiteral("font-size: 20pt; font-weight: bold; color: #1c252e"));
   title->setAlignment(Qt::AlignHCenter);
-  auto* hint = new QLabel(tr("Feel how parts fit together before they exist.\n"
-                             "Add two or more meshes, take one in hand, press Feel."),
-                          this);
-  hint->setAlignment(Qt::AlignHCenter);
-  hint->setStyleSheet(QStringLiteral("color: %1; padding-bottom: 10px").arg(colours::kMutedText.name()));
+  hint_->setObjectName(QStringLiteral("welcomeHint"));
+  hint_->setAlignment(Qt::AlignHCenter);
+  hint_->setStyleSheet(QStringLiteral("color: %1; padding-bottom: 10px").arg(colours::kMutedText.name()));
   layout->addWidget(picture);
   layout->addWidget(title);
-  layout->addWidget(hint);
+  layout->addWidget(hint_);
   for (QAction* way : ways)
     addButton(way, way == ways.constFirst());
   recentRows_->setContentsMargins(0, 8, 0, 0);
   recentRows_->setSpacing(2);
   layout->addWidget(recent_);
   QScrollArea* scroll = makeScrollPane(content_, "welcomeScroll");
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   // The card itself is the background.
   scroll->viewport()->setAutoFillBackground(false);
   content_->setAutoFillBackground(false);
@@ -122,14 +122,24 @@ bool WelcomeCard::eventFilter(QObject* watched, QEvent* event) {
 
 void WelcomeCard::fit() {
   ensurePolished();
-  ensurePolished();
   // The style sheet's border makes a frame, besides the layout's margin.
   const QMargins frame = contentsMargins();
-  QSize size = content_->sizeHint() +
-               QSize(2 * kBorder + frame.left() + frame.right(), 2 * kBorder + frame.top() + frame.bottom());
-  const int room = parentWidget()->height() - 2 * kAround;
-  if (size.height() > room)
-    size = {size.width() + style()->pixelMetric(QStyle::PM_ScrollBarExtent), std::max(room, 0)};
+  const QSize border(2 * kBorder + frame.left() + frame.right(), 2 * kBorder + frame.top() + frame.bottom());
+  const QSize room = (parentWidget()->size() - 2 * QSize(kAround, kAround)).expandedTo({0, 0});
+  if (!hint_->wordWrap()) wideWidth_ = content_->sizeHint().width();
+  const int bar = style()->pixelMetric(QStyle::PM_ScrollBarExtent);
+  const bool isNarrow = wideWidth_ + border.width() + bar > room.width();
+  if (hint_->wordWrap() != isNarrow) hint_->setWordWrap(isNarrow);
+  QSize size = content_->sizeHint();
+  if (isNarrow) {
+    size.setWidth(std::max(room.width() - border.width(), content_->minimumSizeHint().width()));
+    if (content_->hasHeightForWidth()) size.setHeight(content_->heightForWidth(size.width()));
+  }
+  size += border;
+  // Each bar takes room from the other direction.
+  if (size.width() > room.width()) size.rheight() += bar;
+  if (size.height() > room.height()) size.rwidth() += bar;
+  size = size.boundedTo(room);
   resize(size);
   move(parentWidget()->rect().center() - rect().center());
 }

@@ -7,6 +7,7 @@
 #include "core/session/scene_events.h"
 
 class QAction;
+class QLabel;
 class QVBoxLayout;
 
 namespace nearfit {
@@ -16,7 +17,7 @@ class Session;
 namespace nearfit::ui {
 
 /// A card in the middle of its parent that offers ways to begin while the scene is empty, and the scenes opened last.
-/// Scrolls where its parent is lower.
+/// Where its parent is narrower its text is wrapped; where that is not enough, or its parent lower, it scrolls.
 class WelcomeCard : public QFrame {
   Q_OBJECT
 
@@ -41,6 +42,8 @@ class WelcomeCard : public QFrame {
 
   const Session& session_;
   QWidget *content_, *recent_;
+  QLabel* hint_;
+  int wideWidth_ = 0;  ///< Of the content while its text is not wrapped [pixels].
   QVBoxLayout* recentRows_;
   Subscription changes_;
 };

@@ -1,11 +1,34 @@
 #include "ui/widgets/row_table.h"
 
 #include <QHeaderView>
+#include <QItemSelectionModel>
+#include <QKeyEvent>
 #include <QTableView>
 
 #include "ui/widgets/font_scale.h"
 
 namespace nearfit::ui {
+namespace {
+
+/// Gets only those keys of the window that nothing in it has handled.
+class EscapeOfRows : public QObject {
+ public:
+  explicit EscapeOfRows(QTableView& table) : QObject(&table), table_(table) {}
+
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    const bool isEscape =
+        event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape;
+    if (!isEscape || !table_.isVisible() || !table_.selectionModel()->hasSelection())
+      return QObject::eventFilter(watched, event);
+    table_.clearSelection();
+    return true;
+  }
+
+ private:
+  QTableView& table_;
+};
+
+}  // namespace
 
 void setUpRowTable(QTableView& table) {
   table.setSortingEnabled(true);
@@ -17,6 +40,12 @@ void setUpRowTable(QTableView& table) {
   table.setAlternatingRowColors(true);
   table.verticalHeader()->hide();
   table.verticalHeader()->setDefaultSectionSize(forFont(table, 24));
+}
+
+void clearRowsByEscape(QTableView& table, QWidget& window) {
+  auto* escape = new EscapeOfRows(table);
+  table.installEventFilter(escape);
+  window.installEventFilter(escape);
 }
 
 }  // namespace nearfit::ui

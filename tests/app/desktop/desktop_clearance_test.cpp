@@ -27,7 +27,7 @@ struct ClearanceFixture {
         writeOff(d.folder.path() / "beside.off", boxMesh(glm::dvec3(0.02), glm::dvec3(0.05, 0.0, 0.035)));
     d.add({beside});
     (void)QTest::qWaitFor([&] { return d.session().scene().parts().size() == 3; });
-    d.choose(d.widget<QDockWidget>("clearanceDock")->toggleViewAction());
+    d.choose(panelEntry(d.widget<QDockWidget>("clearanceDock")));
     table = d.widget<QTableView>("clearanceTable");
   }
   QString cell(int row, int column) const { return table->model()->index(row, column).data().toString(); }
@@ -68,6 +68,7 @@ class DesktopClearanceTest : public QObject {
   void eachReviewPanelIsOneClickAway();
   void reviewPanelsShareOnePlaceAndLeaveTheSidesTheirHeight();
   void theButtonOfAPanelBehindATabBringsItToTheFront();
+  void theEntryOfAPanelBehindATabBringsItToTheFront();
   void theNoteFollowsWhatIsChosen();
 };
 
@@ -325,6 +326,31 @@ void DesktopClearanceTest::theButtonOfAPanelBehindATabBringsItToTheFront() {
   QTRY_VERIFY(plots->isVisible() && !plots->visibleRegion().isEmpty());
 }
 
+/// It was closed, as by the button before.
+void DesktopClearanceTest::theEntryOfAPanelBehindATabBringsItToTheFront() {
+  DesktopDriver d;
+  const auto* mesh = d.widget<QDockWidget>("checkDock");
+  const auto* plots = d.widget<QDockWidget>("plotsDock");
+  const auto isInFront = [](const QDockWidget* dock) {
+    return dock->isVisible() && !dock->visibleRegion().isEmpty();
+  };
+  QVERIFY(!panelEntry(mesh)->isChecked());
+  d.choose(panelEntry(mesh));
+  QTRY_VERIFY(isInFront(mesh));
+  d.choose(panelEntry(plots));
+  QTRY_VERIFY(isInFront(plots) && !isInFront(mesh));
+  QVERIFY(panelEntry(mesh)->isChecked() && panelEntry(plots)->isChecked());
+  d.choose(panelEntry(mesh));
+  QTRY_VERIFY(isInFront(mesh));
+  QVERIFY(plots->isVisible() && !isInFront(plots));
+  QVERIFY(panelEntry(mesh)->isChecked() && panelEntry(plots)->isChecked());
+  // In front it is closed, and the other stays.
+  d.choose(panelEntry(mesh));
+  QTRY_VERIFY(!mesh->isVisible());
+  QTRY_VERIFY(isInFront(plots));
+  QVERIFY(!panelEntry(mesh)->isChecked() && panelEntry(plots)->isChecked());
+}
+
 void DesktopClearanceTest::theNoteFollowsWhatIsChosen() {
   ClearanceFixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
@@ -343,11 +369,11 @@ void DesktopClearanceTest::aHiddenTableSearchesNothing() {
   ClearanceFixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
   auto* dock = f.d.widget<QDockWidget>("clearanceDock");
-  f.d.choose(dock->toggleViewAction());
+  f.d.choose(panelEntry(dock));
   f.d.session().movePart(f.d.partId("fixed"), {{1, 0, 0, 0}, {0, 0, -0.002}});
   QTest::qWait(400);
   QCOMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
-  f.d.choose(dock->toggleViewAction());
+  f.d.choose(panelEntry(dock));
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("7.00 mm"));
 }
 

@@ -73,7 +73,7 @@ void DesktopFilesTest::emptySceneOffersTheScenesOpenedLast() {
   // Above a panel there is no room for all of the card: it scrolls.
   auto* card = d.widget<QWidget>("welcome");
   const QSize usual = d.window().size();
-  chooseCommand(d.window(), d.widget<QDockWidget>("plotsDock")->toggleViewAction());
+  chooseCommand(d.window(), panelEntry(d.widget<QDockWidget>("plotsDock")));
   d.window().resize(800, 464);
   QTRY_VERIFY(card->parentWidget()->height() < 300);
   QTRY_VERIFY(card->y() >= 0 && card->geometry().bottom() < card->parentWidget()->height());

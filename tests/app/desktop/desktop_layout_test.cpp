@@ -201,7 +201,7 @@ void DesktopLayoutTest::panelsAtTheBottomScrollInASmallWindow() {
                 {"plotsDock", "plotsScroll", "plotView"}};
   for (const auto& panel : panels) {
     QDockWidget* dock = run.dock(panel.dock);
-    chooseCommand(run.window(), dock->toggleViewAction());
+    chooseCommand(run.window(), panelEntry(dock));
     QTRY_VERIFY(dock->isVisible());
     // The window would grow once the panel is laid out.
     QTest::qWait(100);
@@ -235,7 +235,7 @@ void DesktopLayoutTest::aSmallWindowShowsTwoRowsOfClearancesAndAPieceOfThePlots(
   QTRY_COMPARE(run.window().size(), kRoom);
   const auto open = [&run](const char* name, const char* pane, QWidget& content) {
     QDockWidget* dock = run.dock(name);
-    chooseCommand(run.window(), dock->toggleViewAction());
+    chooseCommand(run.window(), panelEntry(dock));
     // Once the panel is laid out.
     (void)QTest::qWaitFor([dock] { return dock->isVisible(); }, kQtPatienceMs);
     QTest::qWait(100);
@@ -269,11 +269,11 @@ void DesktopLayoutTest::aPanelOpensWithRoomForItsButtons() {
   run.window().resize(size);
   QTRY_COMPARE(run.window().size(), size);
   if (isAfterAnother) {
-    chooseCommand(run.window(), run.dock("checkDock")->toggleViewAction());
+    chooseCommand(run.window(), panelEntry(run.dock("checkDock")));
     QTRY_VERIFY(run.dock("checkDock")->isVisible());
   }
   QDockWidget* dock = run.dock("sceneCheckDock");
-  chooseCommand(run.window(), dock->toggleViewAction());
+  chooseCommand(run.window(), panelEntry(dock));
   const auto* scroll = dock->findChild<QScrollArea*>(QStringLiteral("sceneCheckScroll"));
   for (const char* name :
        {"runSceneCheck", "acceptFinding", "fixFinding", "ruleForPair", "exportSceneCheck"}) {
@@ -292,7 +292,7 @@ void DesktopLayoutTest::aHeightThatTheUserGivesAPanelStays() {
   Run run;
   QDockWidget* dock = run.dock("sceneCheckDock");
   const auto* scroll = dock->findChild<QScrollArea*>(QStringLiteral("sceneCheckScroll"));
-  chooseCommand(run.window(), dock->toggleViewAction());
+  chooseCommand(run.window(), panelEntry(dock));
   QTRY_VERIFY(dock->isVisible() && scroll->widget()->height() >= scroll->widget()->sizeHint().height());
   const int before = dock->height();
   run.window().resizeDocks({dock}, {before + 60}, Qt::Vertical);
@@ -315,8 +315,11 @@ void DesktopLayoutTest::whatIsHiddenAndMovedComesBack() {
     QTRY_COMPARE(run.window().dockWidgetArea(feel), Qt::LeftDockWidgetArea);
     QTRY_VERIFY(!feel->isFloating());
     run.dock("poseDock")->close();
-    // By its entry in the menu.
-    chooseCommand(run.window(), run.dock("historyDock")->toggleViewAction());
+    // By its entry in the menu: it is behind a tab first.
+    chooseCommand(run.window(), panelEntry(run.dock("historyDock")));
+    QTRY_VERIFY(!run.dock("historyDock")->visibleRegion().isEmpty());
+    QVERIFY(run.dock("historyDock")->isVisible());
+    chooseCommand(run.window(), panelEntry(run.dock("historyDock")));
     QTRY_VERIFY(!run.dock("historyDock")->isVisible());
     run.close();
   }

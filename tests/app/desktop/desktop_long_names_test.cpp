@@ -36,7 +36,7 @@ void DesktopLongNamesTest::theWindowAndItsDocksStayAsWideAsTheyWere() {
   DesktopDriver d;
   d.addCubes();
   for (const char* dock : {"clearanceDock", "timelineDock"})
-    d.choose(d.widget<QDockWidget>(dock)->toggleViewAction());
+    d.choose(panelEntry(d.widget<QDockWidget>(dock)));
   d.clickPart(1, ui::PartsModel::Name);
   QTRY_COMPARE(d.text("poseHeading"), QStringLiteral("moving"));
   QTest::qWait(100);

@@ -12,6 +12,7 @@
 #include "ui/model/shown_poses.h"
 #include "ui/panels/replay/timeline.h"
 #include "ui/widgets/error_box.h"
+#include "ui/widgets/number_field.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -94,6 +95,8 @@ class DesktopPathTest : public QObject {
   void aRecordingIsSavedAsAPathOfTheTimelinesRange();
   void theClearanceAlongAPathIsShown();
   void aFreePathIsCertifiedAndTheCertificateIsProvenAnew();
+  void theSeparationsOfferedAreRoundedDown_data();
+  void theSeparationsOfferedAreRoundedDown();
   void whatIsNotProvenIsShownWhereItIs();
   void aProofEndsWithTheSceneItIsOf();
   void posesClearancesAnimationAndSweptVolumeAreExported();
@@ -193,6 +196,43 @@ void DesktopPathTest::aFreePathIsCertifiedAndTheCertificateIsProvenAnew() {
   QVERIFY2(certificate.sceneSha256.empty(), "the scene was not saved");
   const Verification verified = verifyCertificate(certificate, f.d.session().scene(), {}, std::nullopt);
   QVERIFY2(verified.isProven(), verified.problem.c_str());
+}
+
+void DesktopPathTest::theSeparationsOfferedAreRoundedDown_data() {
+  QTest::addColumn<QString>("unit");
+  QTest::addColumn<QString>("wanted");
+  QTest::addColumn<double>("metres");
+  QTest::newRow("millimetres") << QStringLiteral("unit-mm") << QStringLiteral("0.000034 mm") << 3.4e-8;
+  QTest::newRow("inches") << QStringLiteral("unit-in") << QStringLiteral("0.0000013 in") << 1.3e-6 * 0.0254;
+}
+
+/// A millionth of the diagonal of a cube of 20 mm is 0.0346410 um, or 0.00000136382 in. It was offered as it is, and shown
+/// rounded.
+void DesktopPathTest::theSeparationsOfferedAreRoundedDown() {
+  QFETCH(QString, unit);
+  QFETCH(QString, wanted);
+  QFETCH(double, metres);
+  PathFixture f;
+  f.open(f.writePath("moving", placeAt(0.03, 0.0)));
+  f.d.choose(unit.toLatin1().constData());
+  const std::pair<const char*, std::pair<const char*, const char*>> dialogs[] = {
+      {"certifyPath", {"certifyDialog", "pathLength"}}, {"savePath", {"pathDialog", "pathSeparation"}}};
+  for (const auto& [command, names] : dialogs) {
+    double offered = 0.0;
+    QString shown;
+    DialogAnswers answers;
+    answers.expect(QLatin1String(names.first), [&, field = names.second](QDialog& dialog) {
+      const auto* number = dialog.findChild<ui::NumberField*>(QLatin1String(field));
+      offered = number->quantity();
+      shown = number->text();
+      dialog.reject();
+      return true;
+    });
+    f.choose(command, answers);
+    QCOMPARE(shown, wanted);
+    QVERIFY2(std::abs(offered - metres) < 1e-9 * metres, qPrintable(QString::number(offered)));
+  }
+  f.d.choose("unit-mm");
 }
 
 void DesktopPathTest::whatIsNotProvenIsShownWhereItIs() {

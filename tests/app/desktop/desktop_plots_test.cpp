@@ -81,7 +81,7 @@ struct PlotsFixture {
     for (int i = 0; i < kPlottedRows; ++i)
       writer.write(rowAt(i));
     writer.finish();
-    d.choose(d.widget<QDockWidget>("plotsDock")->toggleViewAction());
+    d.choose(panelEntry(d.widget<QDockWidget>("plotsDock")));
     QTRY_VERIFY(plots()->isVisible());
   }
   ui::PlotView* plots() { return d.widget<ui::PlotView>("plotView"); }

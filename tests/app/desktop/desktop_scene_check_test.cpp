@@ -78,6 +78,7 @@ class DesktopSceneCheckTest : public QObject {
   void theTableSaysWhichPairsClashAndWhichAreNear();
   void namesAreShownWhole();
   void aRowHighlightsItsPairAndMarksThePlace();
+  void aPairIsShownUntilTheNextSelectionOrEscape();
   void returnGoesToThePlace();
   void aFindingIsAcceptedWithAReasonAsAStepToUndo();
   void theNextCheckSaysWhatHasChanged();
@@ -161,6 +162,35 @@ void DesktopSceneCheckTest::aRowHighlightsItsPairAndMarksThePlace() {
   f.clickRow(1);
   QTRY_COMPARE(label->text(), QStringLiteral("5.00 mm"));
   keepPictures(f.d.window(), QStringLiteral("scene-check-near"));
+}
+
+/// Its parts stayed highlighted.
+void DesktopSceneCheckTest::aPairIsShownUntilTheNextSelectionOrEscape() {
+  SceneCheckFixture f;
+  f.check();
+  ui::Selection& selection = f.d.window().selection();
+  selection.set({f.d.partId("fixed")});
+  auto* label = f.d.window().viewport().findChild<QLabel*>(QStringLiteral("pairLabel"));
+  const auto showPair = [&] {
+    f.clickRow(0);
+    return QTest::qWaitFor([label] { return label->isVisible(); });
+  };
+  QVERIFY(showPair());
+  selection.set({f.d.partId("moving")});
+  QVERIFY(!label->isVisible());
+  QVERIFY(!f.table->selectionModel()->hasSelection());
+  QVERIFY2(showPair(), "another click of the same row shows it again");
+  const std::vector<PartId> selected = selection.parts();
+  for (QWidget* focus : {static_cast<QWidget*>(&f.d.window().viewport()), static_cast<QWidget*>(f.table)}) {
+    QTest::keyClick(focus, Qt::Key_Escape);
+    QVERIFY(!label->isVisible());
+    QVERIFY2(selection.parts() == selected, "the selection is the user's");
+    QVERIFY(showPair());
+  }
+  // The view shows no pair then.
+  const QImage with = f.d.picture();
+  QTest::keyClick(f.table, Qt::Key_Escape);
+  QVERIFY(differentPixels(f.d.picture(), with) > 100);
 }
 
 void DesktopSceneCheckTest::returnGoesToThePlace() {
@@ -374,9 +404,9 @@ void DesktopSceneCheckTest::aHiddenPanelMarksNothing() {
   auto* label = f.d.window().viewport().findChild<QLabel*>(QStringLiteral("pairLabel"));
   QTRY_VERIFY(label->isVisible());
   auto* dock = f.d.widget<QDockWidget>("sceneCheckDock");
-  f.d.choose(dock->toggleViewAction());
+  f.d.choose(panelEntry(dock));
   QTRY_VERIFY(!label->isVisible());
-  f.d.choose(dock->toggleViewAction());
+  f.d.choose(panelEntry(dock));
   QTRY_VERIFY(label->isVisible());
 }
 

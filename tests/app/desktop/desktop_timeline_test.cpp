@@ -60,7 +60,7 @@ struct TimelineFixture {
   void press(const char* button) { QTest::mouseClick(d.widget<QToolButton>(button), Qt::LeftButton); }
   double shownTime() { return d.text("timelineTime").section(' ', 0, 0).toDouble(); }
   ui::PlotView* plots() { return d.widget<ui::PlotView>("plotView"); }
-  void showPlots() { d.choose(d.widget<QDockWidget>("plotsDock")->toggleViewAction()); }
+  void showPlots() { d.choose(panelEntry(d.widget<QDockWidget>("plotsDock"))); }
 
   DesktopDriver d;
   QVector<ui::Failure> failures;
@@ -228,7 +228,7 @@ void DesktopTimelineTest::clearancesAreOfThePoseShown() {
   TimelineFixture f;
   f.d.add({writeOff(f.d.folder.path() / "beside.off", boxMesh(glm::dvec3(0.02), {0.05, 0.0, 0.035}))});
   QTRY_COMPARE(f.d.session().scene().parts().size(), std::size_t{3});
-  f.d.choose(f.d.widget<QDockWidget>("clearanceDock")->toggleViewAction());
+  f.d.choose(panelEntry(f.d.widget<QDockWidget>("clearanceDock")));
   auto* table = f.d.widget<QTableView>("clearanceTable");
   const auto cell = [&](int row, int column) { return table->model()->index(row, column).data().toString(); };
   QTRY_COMPARE(cell(1, ui::ClearanceModel::Distance), QStringLiteral("30.0 mm"));

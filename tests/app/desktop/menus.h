@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QApplication>
 #include <QDeadlineTimer>
+#include <QDockWidget>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
@@ -94,6 +95,11 @@ inline void chooseCommand(QMainWindow& window, QAction* action) {
     return QTest::mouseClick(button, Qt::LeftButton);
   }
   throw Error("menus", name + " is in no menu and on no toolbar");
+}
+
+/// The entry of a panel in the menu *Panels*.
+inline QAction* panelEntry(const QDockWidget* dock) {
+  return dock->findChild<QAction*>(dock->objectName() + QStringLiteral("Entry"), Qt::FindDirectChildrenOnly);
 }
 
 }  // namespace nearfit::test

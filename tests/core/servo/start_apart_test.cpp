@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "core/placing/drop.h"
+#include "core/placing/solid_move.h"
 #include "core/proximity/overlap/interference.h"
 #include "core/servo/scene_tracker.h"
 #include "core/servo/servo_tick.h"
@@ -208,6 +209,42 @@ TEST(StartApart, ANeighbourThatWasClearStaysClear) {
   const double top = scene.moving.worldFromPart.translation.z + 0.01;
   EXPECT_LT(top, 0.0200005);
 }
+
+/// A pose that is typed with *Solid* on: where the block starts above the plate, and how it is moved [m].
+struct TypedSolidly {
+  double height;
+  glm::dvec3 motion;
+};
+class StartApartAfterASolidMove : public testing::TestWithParam<TypedSolidly> {};
+
+TEST_P(StartApartAfterASolidMove, IsFeltAndCanBeLifted) {
+  Scene scene;
+  scene.add(test::partOf(test::solidGeometryOf(boxMesh({0.1, 0.1, 0.01}, {0.0, 0.0, -0.005})), "plate", {}));
+  const PartId block = scene.add(test::partOf(test::solidGeometryOf(boxMesh(glm::dvec3(0.02))), "block",
+                                              at({0.003, 0.002, 0.01 + GetParam().height})));
+  scene.setMovingPart(block);
+  const PartId moved[] = {block};
+  Part part = scene.get(block);
+  part.worldFromPart = movedSolidly(scene, moved, at(GetParam().motion)).front();
+  scene.replace(part);
+  const auto inHand = makeServoScene(scene);
+  startApart(*inHand);
+  const double start = inHand->moving.worldFromPart.translation.z;
+  EXPECT_NEAR(start, part.worldFromPart.translation.z, kMostShift);
+  Hand pressing(*inHand);
+  const ServoSnapshot& pressed = pressing.press({0.0, 0.0, -1e-3}, 100);
+  EXPECT_GT(pressed.contactCount, 0U);
+  EXPECT_GT(pressed.proxy.translation.z, 0.01);
+  Hand lifting(*inHand);
+  const ServoSnapshot& lifted = lifting.press({0.0, 0.0, 5e-3}, 200);
+  EXPECT_GT(lifted.proxy.translation.z, start + 4.9e-3);
+}
+
+// To the plate; 5 mm into it, where contact stops it; and along it where it lies flush.
+INSTANTIATE_TEST_SUITE_P(Typed, StartApartAfterASolidMove,
+                         testing::Values(TypedSolidly{0.02, {0.0, 0.0, -0.02}},
+                                         TypedSolidly{0.02, {0.0, 0.0, -0.025}},
+                                         TypedSolidly{0.0, {0.004, 0.0, 0.0}}));
 
 /// Meshes with many flats whose corners are rounded, so that the surface that is searched deviates from the file's by more
 /// than a drop leaves.

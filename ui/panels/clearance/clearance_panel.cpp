@@ -4,7 +4,6 @@
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QHeaderView>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
 #include <QSettings>
@@ -88,22 +87,12 @@ ClearancePanel::ClearancePanel(const Context& context, ClearanceSearch::PoseOfMo
   connect(&search_, &ClearanceSearch::failed, this, &ClearancePanel::failed);
   // Else what is selected could not be told from the pair.
   connect(&context.selection, &Selection::changed, table_, &QTableView::clearSelection);
-  table_->installEventFilter(this);
-  window->installEventFilter(this);
+  clearRowsByEscape(*table_, *window);
   connect(&context.hand, &HandState::snapshotShown, &search_, &ClearanceSearch::showSnapshot);
   connect(&view_.poses(), &ShownPoses::changed, this, &ClearancePanel::followMoving);
   changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { showSubjects(); });
   showSubjects();
   showClearances();
-}
-
-/// Gets only those keys of the window that nothing in it has handled, so active tools see Escape first.
-bool ClearancePanel::eventFilter(QObject* watched, QEvent* event) {
-  const bool isEscape =
-      event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape;
-  if (!isEscape || !chosen()) return QWidget::eventFilter(watched, event);
-  table_->clearSelection();
-  return true;
 }
 
 void ClearancePanel::setUpFields() {

@@ -42,8 +42,6 @@ class ClearancePanel : public QWidget {
   /// @param window  Sees the keys that nothing in it has handled; outlives this.
   ClearancePanel(const Context& context, ClearanceSearch::PoseOfMoving poseOfMoving, QWidget* window);
 
-  bool eventFilter(QObject* watched, QEvent* event) override;
-
  public slots:
   /// Shows lengths in the unit that has been chosen.
   void refresh();

@@ -7,8 +7,11 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
 
 #include "ui/widgets/font_scale.h"
+#include "ui/widgets/length_unit.h"
 #include "ui/widgets/number_field.h"
 
 namespace nearfit::ui {
@@ -19,6 +22,23 @@ constexpr double kMinPathLength = 1e-12, kMaxPathLength = 10.0;
 /// First values of thinning and smoothing [m]: what a hand does not mean.
 constexpr double kFirstThin = 1e-4, kFirstSmooth = 5e-4;
 constexpr int kPathDecimals = 6, kTimeDecimals = 3;
+
+/// Figures of a separation that is offered: as many as formatRoundLength() says of the one that was proven.
+constexpr int kSeparationFigures = 4;
+/// Share of the last digit by which a number of them is rounded: it must not become a digit less.
+constexpr double kDigitRounding = 1e-6;
+
+/// A separation as it is offered [m]: rounded down to the digits that are shown in the user's unit, so that no more is read
+/// than is proven. More than half of it is left, which far scenes need. One below the last digit stays as it is.
+double offeredSeparation(double separation) {
+  const LengthUnit unit = shownLengthUnit();
+  const double number = separation / metresOf(unit);
+  if (!(number > 0.0) || !std::isfinite(number)) return separation;
+  const int after = kSeparationFigures - 1 - static_cast<int>(std::floor(std::log10(number)));
+  const double perUnit = std::pow(10.0, std::min(after, kPathDecimals + extraDecimals(unit)));
+  const double digits = std::floor(number * perUnit + kDigitRounding);
+  return digits > 0.0 ? digits / perUnit * metresOf(unit) : separation;
+}
 
 NumberField* pathLengthField(QWidget* parent, const char* name, double shown, const QString& help) {
   auto* field = new NumberField(parent);
@@ -99,7 +119,7 @@ std::optional<PathWishes> askForPathWishes(std::pair<double, double> range, doub
                                QObject::tr("No point of the part comes farther than this from the motion"));
   auto* smooth = pathLengthField(&dialog, "pathSmooth", kFirstSmooth,
                                  QObject::tr("No point of a pose moves farther than this"));
-  auto* kept = pathLengthField(&dialog, "pathSeparation", separation,
+  auto* kept = pathLengthField(&dialog, "pathSeparation", offeredSeparation(separation),
                                QObject::tr("Distance from other parts that thinning and smoothing keep; "
                                            "where it is not proven, the motion stays as it is"));
   thins->setChecked(true);
@@ -131,7 +151,7 @@ std::optional<double> askForSeparation(double offered, QWidget* parent) {
   return askForLength("certifyDialog", QObject::tr("Certify"), QObject::tr("&Separation"),
                       QObject::tr("Prove that the part keeps this distance from all other visible parts, "
                                   "everywhere on the path and not only at its poses"),
-                      QObject::tr("Certify"), offered, parent);
+                      QObject::tr("Certify"), offeredSeparation(offered), parent);
 }
 
 std::optional<double> askForResolution(double offered, QWidget* parent) {

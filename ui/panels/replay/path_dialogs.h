@@ -18,13 +18,13 @@ struct PathWishes {
 /// Asks how to save a motion as a path.
 /// @param range       Offered at first [s].
 /// @param duration    Of the motion [s].
-/// @param separation  Offered at first [m].
+/// @param separation  Offered at first [m], rounded down to the digits that are shown.
 /// @return std::nullopt if the user cancels.
 std::optional<PathWishes> askForPathWishes(std::pair<double, double> range, double duration,
                                            double separation, QWidget* parent);
 
 /// Asks for the separation that a path is certified with [m].
-/// @param offered  At first [m].
+/// @param offered  At first [m], rounded down to the digits that are shown.
 std::optional<double> askForSeparation(double offered, QWidget* parent);
 
 /// Asks for the resolution of a swept volume [m].

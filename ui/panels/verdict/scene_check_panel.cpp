@@ -19,6 +19,7 @@
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/report/scene_check_export.h"
+#include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
 #include "ui/panels/verdict/accept_dialog.h"
 #include "ui/panels/verdict/findings_filter.h"
@@ -99,8 +100,8 @@ std::vector<ComparedFinding> withPresentStates(std::vector<ComparedFinding> comp
 
 }  // namespace
 
-SceneCheckPanel::SceneCheckPanel(const Context& context, QWidget* parent)
-    : QWidget(parent),
+SceneCheckPanel::SceneCheckPanel(const Context& context, QWidget* window)
+    : QWidget(window),
       session_(context.session),
       view_(context.view),
       run_({context.session, context.view.poses()}),
@@ -117,6 +118,9 @@ SceneCheckPanel::SceneCheckPanel(const Context& context, QWidget* parent)
   setUpMenu();
   setUpLayout();
   connectRun();
+  // Else what is selected could not be told from the pairs.
+  connect(&context.selection, &Selection::changed, table_, &QTableView::clearSelection);
+  clearRowsByEscape(*table_, *window);
   changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { followSession(); });
   showResult();
   showWork();

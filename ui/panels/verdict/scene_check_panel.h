@@ -24,11 +24,12 @@ namespace nearfit::ui {
 
 class FindingsFilter;
 class NumberField;
+class Selection;
 class Viewport;
 
 /// Checks all pairs of visible parts when asked to, and lists what was found. The view highlights the pairs
 /// of the chosen rows and marks the present one: where two parts meet and how to free them, or where they are
-/// nearest. It leaves the selection alone. What the user says about findings, and the rules, are steps to
+/// nearest, until something else is selected or Escape is pressed. It leaves the selection alone. What the user says about findings, and the rules, are steps to
 /// undo. While it is hidden the view shows nothing of it.
 class SceneCheckPanel : public QWidget {
   Q_OBJECT
@@ -37,9 +38,11 @@ class SceneCheckPanel : public QWidget {
   /// Objects that it checks, and those that show the result; all outlive this.
   struct Context {
     Session& session;
+    const Selection& selection;
     Viewport& view;
   };
-  explicit SceneCheckPanel(const Context& context, QWidget* parent = nullptr);
+  /// @param window  Sees the keys that nothing in it has handled; outlives this.
+  SceneCheckPanel(const Context& context, QWidget* window);
 
   /// With some rows of the table, which may be lower.
   QSize sizeHint() const override;

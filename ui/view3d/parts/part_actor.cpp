@@ -1,6 +1,9 @@
 #include "ui/view3d/parts/part_actor.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <vtkBoundingBox.h>
@@ -26,12 +29,57 @@ constexpr float kEdgeWidth = 1.3F;
 /// small part would be a blot.
 constexpr double kSeenEdges = 0.5, kMaxInk = 0.4;
 
-QColor edgeColour(const PartLook& look) {
-  const QColor dark(0x1a, 0x22, 0x2b);
+/// Least contrast of edges with the faces that they lie on: what WCAG 2.1 (1.4.11) asks of lines that have a meaning.
+constexpr double kMinEdgeContrast = 3.0;
+/// Share of a part's colour that a face turned to the light has, without its gloss: ambient and diffuse light.
+constexpr double kLitShare = 0.94;
+
+/// Relative luminance, as WCAG 2.1 defines it, of sRGB.
+double luminanceOf(const std::array<double, 3>& rgb) {
+  constexpr std::array<double, 3> kWeights = {0.2126, 0.7152, 0.0722};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i)
+    sum += kWeights[i] * (rgb[i] <= 0.03928 ? rgb[i] / 12.92 : std::pow((rgb[i] + 0.055) / 1.055, 2.4));
+  return sum;
+}
+
+std::array<double, 3> rgbOf(const QColor& colour) {
+  return {colour.redF(), colour.greenF(), colour.blueF()};
+}
+
+double contrastOf(double a, double b) {
+  return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
+}
+
+/// Colour of edges without a meaning: of a dark and a light one that which stands out from the background, if it does so
+/// from the part's faces too, and else the one that does more from these. From an opaque face one of the two always does.
+QColor plainEdgeColour(const Colour& part, double opacity) {
+  const QColor candidates[] = {QColor(0x1a, 0x22, 0x2b), QColor(Qt::white)};
+  const ViewGround ground = viewGround();
+  double ofFaces[2], ofGround[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double own = luminanceOf(rgbOf(candidates[i]));
+    ofFaces[i] = ofGround[i] = std::numeric_limits<double>::infinity();
+    for (const QColor& behind : {ground.lower, ground.upper}) {
+      const std::array<double, 3> under = rgbOf(behind);
+      const double colour[] = {double{part.r}, double{part.g}, double{part.b}};
+      std::array<double, 3> face{};
+      for (std::size_t k = 0; k < 3; ++k)
+        face[k] = opacity * kLitShare * colour[k] + (1.0 - opacity) * under[k];
+      ofFaces[i] = std::min(ofFaces[i], contrastOf(own, luminanceOf(face)));
+      ofGround[i] = std::min(ofGround[i], contrastOf(own, luminanceOf(under)));
+    }
+  }
+  const std::size_t first = ofGround[0] >= ofGround[1] ? 0 : 1;
+  if (ofFaces[first] >= kMinEdgeContrast) return candidates[first];
+  return candidates[ofFaces[0] >= ofFaces[1] ? 0 : 1];
+}
+
+QColor edgeColour(const PartLook& look, const Colour& part, double opacity) {
   return look.isSelected      ? colours::kAccent
          : look.isMoving      ? colours::kMoving.darker(150)
          : look.isOverlapping ? colours::kOverlap.darker(150)
-                              : dark;
+                              : plainEdgeColour(part, opacity);
 }
 
 /// Colour of a part that is little more than its edges: these alone set it off from the background.
@@ -42,8 +90,9 @@ QColor outlineOf(const PartLook& look) {
                                             : colours::kOutline);
 }
 
-void setEdgeColour(vtkProperty& property, const PartLook& look, bool isOutlined) {
-  const QColor colour = isOutlined ? outlineOf(look) : edgeColour(look);
+void setEdgeColour(vtkProperty& property, const PartLook& look, const Colour& part, double opacity,
+                   bool isOutlined) {
+  const QColor colour = isOutlined ? outlineOf(look) : edgeColour(look, part, opacity);
   property.SetColor(colour.redF(), colour.greenF(), colour.blueF());
   property.SetLineWidth(devicePixels(look.isSelected ? 2.4F : kEdgeWidth));
   property.SetOpacity(look.isTranslucent && !look.isSelected && !isOutlined ? 0.55 : 1.0);
@@ -217,7 +266,7 @@ void PartActor::applyLook() {
   if (!shownLook_) return;
   look_->SetOpacity(opacity());
   hideBackFaces();
-  setEdgeColour(*edges_->GetProperty(), *shownLook_, isOutlined());
+  setEdgeColour(*edges_->GetProperty(), *shownLook_, colour_, opacity(), isOutlined());
 }
 
 bool PartActor::showsOnlyNear() const noexcept {

@@ -86,7 +86,7 @@ struct PartLook {
   bool hasEdges = true;
   /// Others are drawn in the colours of their clearances, this one is not: it must not tint them.
   bool isBesideColours = false;
-  bool isDark = false;   ///< The theme; its outlines beside colours have other colours.
+  bool isDark = false;   ///< The theme, on whose background edges stand out.
   double opacity = 1.0;  ///< The part's own opacity, 0 to 1.
   bool operator==(const PartLook&) const = default;
 };

@@ -147,7 +147,7 @@ void SceneRenderer::applyAppearance(const Part& part) {
   look.opacity = part.opacity;
   PartActor& actor = actorOf(part);
   look.isBesideColours = hasColours_ && actor.colours() == nullptr;
-  look.isDark = look.isBesideColours && isThemeDark();
+  look.isDark = isThemeDark();
   if (actor.setAppearance(part.colour, part.isVisible, look)) ++revision_;
   place(part);
 }

@@ -29,6 +29,7 @@ class SceneRendererTest : public QObject {
   void aSelectedPartIsTintedByTheVeilOfItsShape();
   void aPartIsAddedWithoutASearchThroughAllOthers();
   void outlinesBesideAMapStandOutAndFollowTheTheme();
+  void edgesStandOutFromFacesAndFollowTheTheme();
   void cleanup() { ui::setColourScheme(ui::ColourScheme::Light); }
 
  private:
@@ -194,6 +195,40 @@ void SceneRendererTest::outlinesBesideAMapStandOutAndFollowTheTheme() {
     QVERIFY2(test::contrast(shown, ground.lower) >= 3.0 && test::contrast(shown, ground.upper) >= 3.0,
              qPrintable(shown.name()));
   }
+}
+
+/// Dark edges on a dark ground could hardly be seen. WCAG 2.1 asks for 3 of lines.
+void SceneRendererTest::edgesStandOutFromFacesAndFollowTheTheme() {
+  Scene scene;
+  std::vector<PartId> ids;
+  for (const float grey : {0.02F, 0.25F, 0.4F, 0.55F, 0.7F, 0.95F}) {
+    Part part = partOf("grey");
+    part.name += std::to_string(ids.size());
+    part.colour = {grey, grey, grey};
+    ids.push_back(scene.add(part));
+  }
+  parts_.setScene(scene);
+  const auto shown = [this](PartId id) {
+    double rgb[3];
+    parts_.find(id)->edgeLook().GetColor(rgb);
+    return QColor::fromRgbF(rgb[0], rgb[1], rgb[2]);
+  };
+  for (const ui::ColourScheme scheme : {ui::ColourScheme::Light, ui::ColourScheme::Dark}) {
+    ui::setColourScheme(scheme);
+    parts_.followTheme();
+    for (const PartId id : ids) {
+      const auto grey = static_cast<double>(scene.get(id).colour.r);
+      // Fully lit, and with what ambient and diffuse light leave of it.
+      const QColor face = QColor::fromRgbF(0.94 * grey, 0.94 * grey, 0.94 * grey);
+      QVERIFY2(test::contrast(shown(id), face) >= 3.0, qPrintable(face.name()));
+    }
+  }
+  // Where both are enough, as at a luminance of 0.23, the ground decides.
+  QVERIFY(test::contrast(shown(ids[3]), ui::viewGround().lower) >= 3.0);
+  QVERIFY(test::contrast(shown(ids[3]), ui::viewGround().upper) >= 3.0);
+  ui::setColourScheme(ui::ColourScheme::Light);
+  parts_.followTheme();
+  QVERIFY(test::contrast(shown(ids[3]), ui::viewGround().lower) >= 3.0);
 }
 
 NEARFIT_QT_SUITE(SceneRendererTest, test::runQtTest<SceneRendererTest>)
