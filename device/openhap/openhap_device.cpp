@@ -19,7 +19,7 @@ using openhap::PoseStatus;
 constexpr double kMinTimeToLive = 10e-3, kPeriodsToLive = 3.0;  // [s]
 constexpr UsbLink::Timeout kRequestTimeout{500};
 /// Holds the part while the hand repositions the device.
-constexpr std::uint16_t kClutchButton = 1;
+constexpr std::uint16_t kOpenHapClutchButton = 1;
 
 std::uint16_t timeToLiveMs(std::uint16_t rate) noexcept {
   const double time = std::max(kMinTimeToLive, kPeriodsToLive / std::max<double>(rate, 1.0));
@@ -233,7 +233,7 @@ bool OpenHapDevice::readHandle(HandleInput& handle) noexcept {
   handle.age = stream_.age();
   handle.patience = stream_.supervisor().patience();
   // The part must not jump to wherever the handle is at first.
-  handle.isClutched = !hasPose_ || (report.buttons & kClutchButton) != 0;
+  handle.isClutched = !hasPose_ || (report.buttons & kOpenHapClutchButton) != 0;
   hasPose_ = stream_.hasReport();
   handle.hasOwnFrame = true;
   handle.isTorqueFelt = capabilities_.rendersTorque || !capabilities_.sensesOrientation;

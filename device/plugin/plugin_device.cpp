@@ -14,7 +14,7 @@
 namespace nearfit {
 namespace {
 
-constexpr std::uint32_t kClutchButton = 1;
+constexpr std::uint32_t kPluginClutchButton = 1;
 /// Same as OpenHap: allows for rounding and imprecise arithmetic.
 constexpr double kQuaternionSlack = 1e-2;
 
@@ -187,7 +187,7 @@ class PluginDevice final : public HapticDevice {
     handle.patience = supervisor_.patience();
     // An uncalibrated pose means nothing, and calibration makes it jump: the part stays.
     handle.isClutched =
-        (last_.buttons & kClutchButton) != 0 || supervisor_.state() == DeviceState::Uncalibrated;
+        (last_.buttons & kPluginClutchButton) != 0 || supervisor_.state() == DeviceState::Uncalibrated;
     handle.isTorqueFelt = description_.force_axes != 3 || description_.sensed_axes == 3;
     handle.hasOwnFrame = true;
     handle.buttons = last_.buttons;

@@ -17,7 +17,7 @@ bool isTeensy(const UsbDescription& device) noexcept {
 }
 
 /// Returns the HID interface that takes commands. A Teensy has a second one, for text, with smaller packets.
-const UsbInterface* interfaceOf(const UsbDescription& device) noexcept {
+const UsbInterface* polhemInterfaceOf(const UsbDescription& device) noexcept {
   const std::size_t size = isTeensy(device) ? polhem::kRawHidSize : polhem::kPacketSize;
   const auto found =
       std::find_if(device.interfaces.begin(), device.interfaces.end(), [&](const UsbInterface& each) {
@@ -34,7 +34,7 @@ const UsbInterface* interfaceOf(const UsbDescription& device) noexcept {
 bool PolhemDevice::speaks(const UsbDescription& device) noexcept {
   const bool isKnown =
       (device.vendor == polhem::kVendor && device.product == polhem::kProduct) || isTeensy(device);
-  return isKnown && interfaceOf(device) != nullptr;
+  return isKnown && polhemInterfaceOf(device) != nullptr;
 }
 
 PolhemDevice::PolhemDevice(UsbDescription device, const polhem::Calibration& calibration,
@@ -62,7 +62,7 @@ ArmSample PolhemDevice::restSample() const noexcept {
 }
 
 ForceArmDevice::Opened PolhemDevice::open(std::optional<UsbLink>& link, const ProgressCallback&) {
-  const UsbInterface* face = interfaceOf(description());
+  const UsbInterface* face = polhemInterfaceOf(description());
   if (face == nullptr) {
     throw DeviceError(DeviceProblem::Unsupported, name(), "its interface lacks the expected endpoints",
                       "install the firmware of WoodenHaptics or Polhem on it");

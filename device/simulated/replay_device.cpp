@@ -23,7 +23,7 @@ constexpr std::size_t kRowsPerReport = 1000;
 /// Eleven days: longer than any recording, and well within the range of nanoseconds [s].
 constexpr double kLongest = 1e6;
 /// Nothing sends at a shorter period; such rows belong to one tick [s].
-constexpr double kMinPeriod = 1e-4;
+constexpr double kMinReplayPeriod = 1e-4;
 
 using Columns = std::array<std::size_t, kNames.size()>;
 
@@ -79,7 +79,7 @@ ReplayDevice::ReplayDevice(std::filesystem::path file) : file_(std::move(file)) 
 double ReplayDevice::reportPeriod() const noexcept {
   if (motion_.size() < 2) return 0.0;
   const double period = motion_.back().time / static_cast<double>(motion_.size() - 1);
-  return period < kMinPeriod ? 0.0 : period;
+  return period < kMinReplayPeriod ? 0.0 : period;
 }
 
 DeviceInfo ReplayDevice::info() const {

@@ -22,14 +22,14 @@ constexpr double kLeashForce = 5.0, kLeashTorque = 0.25;
 constexpr Nanoseconds kForgetAfter = kNanosecondsPerSecond / 10;
 
 /// Button bits.
-constexpr std::uint64_t kClutchButton = 1, kLetGoButton = 2;
+constexpr std::uint64_t kMouseClutchButton = 1, kLetGoButton = 2;
 
 /// HID 1.11, 7.1.1 and 7.2.2.
 constexpr std::uint8_t kGetFromInterface = 0x81, kGetDescriptor = 0x06, kSetToInterface = 0x21,
                        kSetReport = 0x09;
 constexpr std::uint16_t kReportDescriptor = 0x2200, kOutputReport = 0x0200;
-constexpr std::size_t kMaxDescriptor = 4096;
-constexpr UsbLink::Timeout kRequestTimeout{500};
+constexpr std::size_t kMaxMouseDescriptor = 4096;
+constexpr UsbLink::Timeout kMouseRequestTimeout{500};
 
 constexpr std::uint16_t kLogitech = 0x046d, k3Dconnexion = 0x256f;
 // Source of all USB IDs: spacenavd's lists of devices.
@@ -42,7 +42,7 @@ constexpr std::array<std::uint16_t, 7> kOrdinaryMice = {0xc650, 0xc651, 0xc654, 
                                                         0xc656, 0xc657, 0xc658};
 
 /// HID 1.11, 4.2 and 4.3: an interface that declares itself a keyboard or a mouse.
-constexpr std::uint8_t kHidClass = 3, kBootSubclass = 1;
+constexpr std::uint8_t kMouseHidClass = 3, kBootSubclass = 1;
 
 template <std::size_t Count>
 bool contains(const std::array<std::uint16_t, Count>& numbers, std::uint16_t number) noexcept {
@@ -50,7 +50,7 @@ bool contains(const std::array<std::uint16_t, Count>& numbers, std::uint16_t num
 }
 
 bool isReader(const UsbInterface& face) noexcept {
-  return face.classCode == kHidClass && face.streaming(true) != nullptr;
+  return face.classCode == kMouseHidClass && face.streaming(true) != nullptr;
 }
 
 bool isOrdinaryMouse(const UsbDescription& device) noexcept {
@@ -185,10 +185,10 @@ void SpaceMouseDevice::open(const UsbInterface& face) {
 }
 
 std::vector<std::byte> SpaceMouseDevice::readDescriptor() {
-  std::vector<std::byte> descriptor(kMaxDescriptor);
+  std::vector<std::byte> descriptor(kMaxMouseDescriptor);
   try {
     descriptor.resize(link_->controlIn(kGetFromInterface, kGetDescriptor, kReportDescriptor, interfaceNumber_,
-                                       descriptor, kRequestTimeout));
+                                       descriptor, kMouseRequestTimeout));
   } catch (const DeviceError& error) {
     if (error.cause() == DeviceProblem::Gone) throw;
     descriptor.clear();
@@ -203,7 +203,7 @@ void SpaceMouseDevice::light(bool isOn) noexcept {
     const auto value =
         static_cast<std::uint16_t>(kOutputReport | std::to_integer<unsigned>(report->bytes[0]));
     link_->controlOut(kSetToInterface, kSetReport, value, interfaceNumber_,
-                      std::span(report->bytes).first(report->size), kRequestTimeout);
+                      std::span(report->bytes).first(report->size), kMouseRequestTimeout);
   } catch (const DeviceError&) {
     // The light does not matter.
   }
@@ -254,7 +254,7 @@ bool SpaceMouseDevice::readHandle(HandleInput& handle) noexcept {
   lastRead_ = now;
   const std::uint64_t buttons = sample.state.buttons;
   handle = {};
-  handle.isClutched = (buttons & kClutchButton) != 0;
+  handle.isClutched = (buttons & kMouseClutchButton) != 0;
   const bool isDriven = isFresh && !handle.isClutched;
   handle.pose =
       control_.step(isDriven ? sample.state.axes : std::array<double, 6>{}, settings_.front(), wrench_, time);
