@@ -143,6 +143,7 @@ class DesktopWindowShellTest : public QObject {
   void iconsAreLegibleInBothThemes();
   void layoutIsRememberedAndReset();
   void tourExplainsTheDemoAndCanBeLeft();
+  void theTourLeavesTheMiddleOfWhatItExplainsFree();
   void theTourHearsKeysAfterAClickIntoTheViewAndEndsWithItsScene();
   void theTourIsLedByReturnToo();
   void theTreeFollowsTheTheme();
@@ -389,6 +390,30 @@ void DesktopWindowShellTest::tourExplainsTheDemoAndCanBeLeft() {
   QTRY_VERIFY(tour->isVisible());
   QTest::keyClick(next, Qt::Key_Escape);
   QVERIFY(!tour->isVisible());
+}
+
+/// The card on the view lay over the parts in its middle.
+void DesktopWindowShellTest::theTourLeavesTheMiddleOfWhatItExplainsFree() {
+  DesktopDriver d;
+  QTest::mouseClick(d.widget<QPushButton>("tourButton"), Qt::LeftButton);
+  auto* tour = d.widget<QFrame>("tour");
+  QTRY_VERIFY(tour->isVisible());
+  bool hasSeenView = false;
+  while (tour->isVisible()) {
+    const QString title = d.text("tourTitle");
+    // The frame is around what the card is about.
+    const QRect framed = d.widget<QFrame>("tourFrame")->geometry();
+    QVERIFY2(!tour->geometry().contains(framed.center()), qPrintable(title));
+    if (title == QStringLiteral("The view")) {
+      hasSeenView = true;
+      QRect middle(QPoint(0, 0), framed.size() / 4);
+      middle.moveCenter(framed.center());
+      QVERIFY(!tour->geometry().intersects(middle));
+      QVERIFY2(framed.contains(tour->geometry()), "beside it there is no room");
+    }
+    QTest::mouseClick(d.widget<QPushButton>("tourNext"), Qt::LeftButton);
+  }
+  QVERIFY(hasSeenView);
 }
 
 void DesktopWindowShellTest::theTourHearsKeysAfterAClickIntoTheViewAndEndsWithItsScene() {
