@@ -14,6 +14,7 @@
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/elided_label.h"
 #include "ui/widgets/format.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/theme.h"
@@ -164,7 +165,7 @@ MeasureTool::MeasureTool(const Session& session, Viewport& view, QObject* parent
   action_->setObjectName(QStringLiteral("measure"));
   action_->setCheckable(true);
   action_->setShortcut(QKeySequence(Qt::Key_M));
-  action_->setToolTip(tr("Measure between two points, edges or faces that you click (M)"));
+  setHelp(*action_, tr("Measure between two points, edges or faces that you click"));
   connect(action_, &QAction::toggled, this, [this](bool isOn) { isOn ? start() : stop(); });
   connect(&picker_, &FeaturePicker::picked, this, &MeasureTool::take);
   connect(&picker_, &FeaturePicker::told, this, &MeasureTool::tell);
