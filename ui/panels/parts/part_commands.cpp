@@ -229,9 +229,16 @@ void PartCommands::setLocked(const SceneNodes& nodes, bool isLocked) {
 
 void PartCommands::deleteSelected() {
   const SceneNodes nodes = context_.selection.nodes();
-  if (std::ranges::any_of(nodes.parts, [this](PartId part) { return context_.hand.holds(part); }))
-    emit servoStopRequested();
-  attempt(tr("The part could not be deleted."), [&] { context_.session.deleteNodes(nodes); });
+  const Scene& scene = context_.session.scene();
+  const std::vector<PartId> parts = partsOf(scene, nodes);
+  const auto held = std::ranges::find_if(parts, [this](PartId part) { return context_.hand.holds(part); });
+  const bool isHeld = held != parts.end();
+  const QString name = isHeld ? shortName(scene.get(*held).name) : QString();
+  if (isHeld) emit servoStopRequested();
+  attempt(tr("The part could not be deleted."), [&] {
+    context_.session.deleteNodes(nodes);
+    if (isHeld) emit noted(tr("Feeling has stopped: %1 was deleted").arg(name));
+  });
 }
 
 void PartCommands::duplicateSelected() {
