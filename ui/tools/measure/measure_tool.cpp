@@ -206,7 +206,7 @@ void MeasureTool::take(const FeaturePick& pick) {
   const PartGeometry& geometry = *part->geometry;
   const End end{pick.part, part->geometry,
                 measureEnd(geometry.mesh, pick.picked, pick.hit, geometry.surfaces.get()),
-                tr("%1 of %2").arg(describeFeature(pick.picked.feature), shortName(part->name))};
+                tr("%1 of %2").arg(describeFeatureWithin(pick.picked.feature), shortName(part->name))};
   if (!from_ || to_) {
     forget();
     from_ = end;
