@@ -33,6 +33,7 @@
 #include "ui/files/refine_dialog.h"
 #include "ui/files/unit_dialog.h"
 #include "ui/model/hand_state.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/notice_bar.h"
 #include "ui/widgets/paths.h"
@@ -151,12 +152,12 @@ PartFiles::PartFiles(const Context& context, QMenu* menu, QWidget* window, QObje
 void PartFiles::addActions(QMenu* menu) {
   reload_ = menu->addAction(icon(QStringLiteral("reload")), tr("&Reload parts from disk"));
   reload_->setObjectName(QStringLiteral("reloadParts"));
-  reload_->setToolTip(tr("Read the mesh files of all parts again; poses do not change"));
+  setHelp(*reload_, tr("Read the mesh files of all parts again; poses do not change"));
   reload_->setShortcut(QKeySequence(QStringLiteral("Ctrl+R")));
   connect(reload_, &QAction::triggered, this, [this] { reload({}); });
   reloadAlways_ = menu->addAction(tr("Reload changed parts &without asking"));
   reloadAlways_->setObjectName(QStringLiteral("reloadAlways"));
-  reloadAlways_->setToolTip(tr("Reload a mesh as soon as its file changes on disk"));
+  setHelp(*reloadAlways_, tr("Reload a mesh as soon as its file changes on disk"));
   reloadAlways_->setCheckable(true);
   reloadAlways_->setChecked(QSettings().value(kReloadAlways, false).toBool());
   connect(reloadAlways_, &QAction::toggled, this,

@@ -58,6 +58,7 @@
 #include "ui/tools/selecting/view_menu.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/error_box.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/scroll_column.h"
 #include "ui/widgets/theme.h"
@@ -249,8 +250,8 @@ void MainWindow::makeSceneCheckPanel(QDockWidget& neighbour) {
   });
 }
 
-void MainWindow::addDockButton(QDockWidget& dock, const QString& toolTip) {
-  dock.toggleViewAction()->setToolTip(toolTip);
+void MainWindow::addDockButton(QDockWidget& dock, const QString& help) {
+  setHelp(*dock.toggleViewAction(), help);
   auto* button = new DockButton(dock, statusBar());
   // Before those that were added earlier, and after the numbers, whose widths change.
   constexpr int kAfterNumbers = 1;

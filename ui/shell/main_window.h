@@ -101,7 +101,7 @@ class MainWindow : public QMainWindow {
   /// Makes the panel of the check of all pairs of parts, in a tab beside `neighbour`.
   void makeSceneCheckPanel(QDockWidget& neighbour);
   /// Adds a button to the status bar that shows and hides a dock, or brings it before the other tabs of its place.
-  void addDockButton(QDockWidget& dock, const QString& toolTip);
+  void addDockButton(QDockWidget& dock, const QString& help);
   void makeToolsAndMenus();
   void connectCommands();
   void connectReplay(QDockWidget& timelineDock);

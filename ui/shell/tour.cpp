@@ -98,7 +98,8 @@ void Tour::end() {
   emit ended();
 }
 
-/// Places the callout beside what it is about, on the side with most room; over it if no side has enough.
+/// Places the callout beside what it is about, on the side with most room. If no side has enough, it goes into the
+/// upper left corner of it: a view has its legend, scale bar and axes in the others, and its centre stays free.
 void Tour::place() {
   QWidget* where = stops_[current_].where;
   if (where == nullptr) return;
@@ -111,9 +112,11 @@ void Tour::place() {
   const int left = around.left(), right = whole.width() - around.right();
   const int top = around.top(), bottom = whole.height() - around.bottom();
   QPoint corner(around.center().x() - width() / 2, around.center().y() - height() / 2);
-  if (std::max(left, right) >= width() + 2 * kGap) {
+  if (std::max(left, right) < width() + 2 * kGap && std::max(top, bottom) < height() + 2 * kGap) {
+    corner = around.topLeft() + QPoint(kGap, kGap);
+  } else if (std::max(left, right) >= width() + 2 * kGap) {
     corner.setX(right >= left ? around.right() + kGap : around.left() - kGap - width());
-  } else if (std::max(top, bottom) >= height() + 2 * kGap) {
+  } else {
     corner.setY(bottom >= top ? around.bottom() + kGap : around.top() - kGap - height());
   }
   move(std::clamp(corner.x(), kGap, std::max(kGap, whole.width() - width() - kGap)),

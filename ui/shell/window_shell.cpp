@@ -26,10 +26,10 @@
 namespace nearfit::ui {
 namespace {
 
-QAction* addAction(QMenu* menu, const char* name, const QString& text, const QString& toolTip) {
+QAction* addAction(QMenu* menu, const char* name, const QString& text, const QString& help) {
   QAction* action = menu->addAction(text);
   action->setObjectName(QLatin1String(name));
-  action->setToolTip(toolTip);
+  setHelp(*action, help);
   return action;
 }
 

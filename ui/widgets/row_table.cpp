@@ -4,11 +4,15 @@
 #include <QItemSelectionModel>
 #include <QKeyEvent>
 #include <QTableView>
+#include <QVariant>
 
 #include "ui/widgets/font_scale.h"
 
 namespace nearfit::ui {
 namespace {
+
+/// Property of a table and its header.
+constexpr const char* kColumnGap = "columnGap";
 
 /// Gets only those keys of the window that nothing in it has handled.
 class EscapeOfRows : public QObject {
@@ -46,6 +50,15 @@ void clearRowsByEscape(QTableView& table, QWidget& window) {
   auto* escape = new EscapeOfRows(table);
   table.installEventFilter(escape);
   window.installEventFilter(escape);
+}
+
+void setColumnGap(QTableView& table, int pixels) {
+  for (QWidget* each : {static_cast<QWidget*>(&table), static_cast<QWidget*>(table.horizontalHeader())})
+    each->setProperty(kColumnGap, pixels);
+}
+
+int columnGapOf(const QWidget* widget) {
+  return widget != nullptr ? widget->property(kColumnGap).toInt() : 0;
 }
 
 }  // namespace nearfit::ui

@@ -12,4 +12,11 @@ void setUpRowTable(QTableView& table);
 /// @param window  Outlives the table.
 void clearRowsByEscape(QTableView& table, QWidget& window);
 
+/// Keeps the texts of neighbouring columns apart, in the header and the rows, as where one is aligned to the right and the
+/// next one to the left. Only WindowStyle knows of it.
+/// @param pixels  More room on either side of each text.
+void setColumnGap(QTableView& table, int pixels);
+/// Returns the gap of a table or its header; 0 for other widgets and for null.
+int columnGapOf(const QWidget* widget);
+
 }  // namespace nearfit::ui

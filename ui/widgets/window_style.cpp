@@ -5,6 +5,7 @@
 #include <QStyleFactory>
 #include <QStyleOption>
 
+#include "ui/widgets/row_table.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -99,9 +100,25 @@ int WindowStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWi
   return hint == SH_EtchDisabledText ? 0 : QProxyStyle::styleHint(hint, option, widget, result);
 }
 
+QRect WindowStyle::subElementRect(SubElement element, const QStyleOption* option,
+                                  const QWidget* widget) const {
+  const QRect rect = QProxyStyle::subElementRect(element, option, widget);
+  const int gap = element == SE_HeaderLabel ? columnGapOf(widget) : 0;
+  return rect.adjusted(gap, 0, -gap, 0);
+}
+
+QSize WindowStyle::sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& contents,
+                                    const QWidget* widget) const {
+  const QSize size = QProxyStyle::sizeFromContents(type, option, contents, widget);
+  return type == CT_HeaderSection ? size + QSize(2 * columnGapOf(widget), 0) : size;
+}
+
 int WindowStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const {
   constexpr int kMoreTools = 26;
-  return metric == PM_ToolBarExtensionExtent ? kMoreTools : QProxyStyle::pixelMetric(metric, option, widget);
+  if (metric == PM_ToolBarExtensionExtent) return kMoreTools;
+  const int usual = QProxyStyle::pixelMetric(metric, option, widget);
+  // The margins of cells.
+  return metric == PM_FocusFrameHMargin ? usual + columnGapOf(widget) : usual;
 }
 
 }  // namespace nearfit::ui

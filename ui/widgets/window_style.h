@@ -8,7 +8,7 @@ namespace nearfit::ui {
 /// stand out; Fusion draws them a little darker than their surroundings, hardly visible on a dark ground.
 /// Combo boxes elide long text, which Fusion clips. Disabled items of lists have no second text behind their own, and
 /// checked buttons have the colour of checked tools. A toolbar's extension button is as wide as a tool; Fusion makes it a
-/// few pixels wide.
+/// few pixels wide. Tables can have more room between their columns (setColumnGap()).
 class WindowStyle : public QProxyStyle {
  public:
   WindowStyle();
@@ -22,6 +22,9 @@ class WindowStyle : public QProxyStyle {
   QIcon standardIcon(StandardPixmap which, const QStyleOption* option, const QWidget* widget) const override;
   int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                 QStyleHintReturn* result) const override;
+  QRect subElementRect(SubElement element, const QStyleOption* option, const QWidget* widget) const override;
+  QSize sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& contents,
+                         const QWidget* widget) const override;
   int pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const override;
 };
 

@@ -3,6 +3,7 @@
 #include <QDoubleSpinBox>
 #include <QHeaderView>
 #include <QMenu>
+#include <QStyleOption>
 #include <QTableView>
 #include <QToolButton>
 #include <QVector>
@@ -62,6 +63,7 @@ class DesktopClearanceTest : public QObject {
   void theTableFollowsMovesAndOverlaps();
   void theTableFollowsThePartInHand();
   void columnsAreSortedByWhatTheyMean();
+  void textsOfNeighbouringColumnsStandApart();
   void anotherPartThanTheOneInHandIsChosen();
   void theTableIsExported();
   void aHiddenTableSearchesNothing();
@@ -225,6 +227,37 @@ void DesktopClearanceTest::columnsAreSortedByWhatTheyMean() {
   clickHeader(ClearanceModel::Other);
   clickHeader(ClearanceModel::Other);
   QCOMPARE(f.cell(0, ClearanceModel::Other), QStringLiteral("fixed"));
+}
+
+/// "Minima", at the right of its column, and "Verdict", at the left of the next one, read as one.
+void DesktopClearanceTest::textsOfNeighbouringColumnsStandApart() {
+  constexpr int kApart = 10;
+  ClearanceFixture f;
+  QTRY_COMPARE(f.table->model()->rowCount(), 2);
+  const QHeaderView* header = f.table->horizontalHeader();
+  const auto labelOf = [header](int column) {
+    QStyleOptionHeader option;
+    option.initFrom(header);
+    option.orientation = Qt::Horizontal;
+    option.rect = {header->sectionViewportPosition(column), 0, header->sectionSize(column), header->height()};
+    return header->style()->subElementRect(QStyle::SE_HeaderLabel, &option, header);
+  };
+  const QRect minima = labelOf(ClearanceModel::Minima), verdict = labelOf(ClearanceModel::Verdict);
+  QVERIFY2(verdict.left() - minima.right() >= kApart,
+           qPrintable(QString::number(verdict.left() - minima.right())));
+  for (const int column : {int{ClearanceModel::Minima}, int{ClearanceModel::Verdict}}) {
+    const QString text = f.table->model()->headerData(column, Qt::Horizontal).toString();
+    QVERIFY2(labelOf(column).width() >= header->fontMetrics().horizontalAdvance(text), qPrintable(text));
+  }
+  // The rows have as much room: each text is whole in its cell less the margins.
+  const int margin = f.table->style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, f.table) + 1;
+  QVERIFY(2 * margin >= kApart);
+  for (int row = 0; row < 2; ++row) {
+    const QString text = f.cell(row, ClearanceModel::Verdict);
+    QVERIFY2(f.table->columnWidth(ClearanceModel::Verdict) - 2 * margin >=
+                 f.table->fontMetrics().horizontalAdvance(text),
+             qPrintable(text));
+  }
 }
 
 void DesktopClearanceTest::anotherPartThanTheOneInHandIsChosen() {

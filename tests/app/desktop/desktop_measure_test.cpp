@@ -71,8 +71,7 @@ void DesktopMeasureTest::cornersAreMeasuredWithTheirComponents() {
   QCOMPARE(d.text("measureZ"), QStringLiteral("-25.000 mm"));
   QVERIFY(!isShown(d, "measureApart"));
   QVERIFY(!isShown(d, "measureAngle"));
-  QVERIFY(d.text("measurePrompt").contains(QStringLiteral("Point of moving")));
-  QVERIFY(d.text("measurePrompt").contains(QStringLiteral("Point of fixed")));
+  QCOMPARE(d.text("measurePrompt"), QStringLiteral("From point of moving to point of fixed"));
   // It is no change of the scene.
   QVERIFY(!d.action("undo")->text().contains(QStringLiteral("easure")));
 }

@@ -1,6 +1,7 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QMessageBox>
+#include <QStatusBar>
 #include <QToolButton>
 
 #include "tests/app/desktop/desktop_driver.h"
@@ -299,6 +300,9 @@ void DesktopServoTest::deletingThePartInHandStops() {
   pressShortcut(d, Qt::Key_Delete);
   QVERIFY(!d.application.servo().isRunning());
   QVERIFY(d.session().scene().findByName("moving") == nullptr);
+  // It stopped without a word.
+  QCOMPARE(d.window().statusBar()->currentMessage(),
+           QStringLiteral("Feeling has stopped: moving was deleted"));
 }
 
 // It went on with whatever part of the other scene had the same number.

@@ -135,6 +135,7 @@ class DesktopWindowShellTest : public QObject {
   void cleanup() { ui::setColourScheme(ui::ColourScheme::Light); }
   void everyWidgetThatTakesTheFocusHasAName();
   void everyActionHasATooltipAndNoTwoShareAShortcut();
+  void buttonsWithAnIconAloneNameTheirCommandAndItsKeys();
   void noTwoEntriesOfAMenuShareAnAltKey();
   void textsAreThoseThatEngineersKnow();
   void shortcutsAreListedAndSearched();
@@ -143,6 +144,7 @@ class DesktopWindowShellTest : public QObject {
   void iconsAreLegibleInBothThemes();
   void layoutIsRememberedAndReset();
   void tourExplainsTheDemoAndCanBeLeft();
+  void theTourLeavesTheMiddleOfWhatItExplainsFree();
   void theTourHearsKeysAfterAClickIntoTheViewAndEndsWithItsScene();
   void theTourIsLedByReturnToo();
   void theTreeFollowsTheTheme();
@@ -195,6 +197,38 @@ void DesktopWindowShellTest::everyActionHasATooltipAndNoTwoShareAShortcut() {
     };
     QVERIFY2(std::any_of(where.begin(), where.end(), isSaid), name);
   }
+}
+
+/// Their tool tips said what they do, but not what the menu and the list of keys call them.
+void DesktopWindowShellTest::buttonsWithAnIconAloneNameTheirCommandAndItsKeys() {
+  DesktopDriver d;
+  d.addCubes();
+  QStringList wrong;
+  int commands = 0;
+  for (const QAbstractButton* button : d.window().findChildren<QAbstractButton*>()) {
+    const auto* tool = qobject_cast<const QToolButton*>(button);
+    const bool isIconAlone =
+        tool != nullptr ? tool->toolButtonStyle() == Qt::ToolButtonIconOnly : button->text().isEmpty();
+    const bool isOfQt =
+        isPieceOfAnother(*button) || qobject_cast<QLineEdit*>(button->parentWidget()) != nullptr;
+    if (!isIconAlone || isOfQt || button->icon().isNull()) continue;
+    const QAction* action = tool != nullptr ? tool->defaultAction() : nullptr;
+    QString name = action != nullptr ? action->text() : QString();
+    name.remove(QChar('&')).remove(QChar(0x2026));
+    const QString keys =
+        action != nullptr ? action->shortcut().toString(QKeySequence::NativeText) : QString();
+    const QString heading = keys.isEmpty() ? name : name + QStringLiteral(" (%1)").arg(keys);
+    if (button->toolTip().isEmpty() || !button->toolTip().startsWith(heading))
+      wrong << pathOf(button) + QStringLiteral(": ") + button->toolTip();
+    commands += action != nullptr ? 1 : 0;
+  }
+  QVERIFY(commands > 20);
+  QVERIFY2(wrong.isEmpty(), qPrintable(QChar('\n') + wrong.join('\n')));
+  // They follow what the command is about.
+  d.choose("selectAll");
+  d.choose("duplicate");
+  QVERIFY(d.action("undo")->toolTip().startsWith(d.action("undo")->text().remove(QChar('&')) +
+                                                 QStringLiteral(" (Ctrl+Z)\n")));
 }
 
 /// Two entries of Drop had an f: the key only went from one to the other.
@@ -389,6 +423,30 @@ void DesktopWindowShellTest::tourExplainsTheDemoAndCanBeLeft() {
   QTRY_VERIFY(tour->isVisible());
   QTest::keyClick(next, Qt::Key_Escape);
   QVERIFY(!tour->isVisible());
+}
+
+/// The card on the view lay over the parts in its middle.
+void DesktopWindowShellTest::theTourLeavesTheMiddleOfWhatItExplainsFree() {
+  DesktopDriver d;
+  QTest::mouseClick(d.widget<QPushButton>("tourButton"), Qt::LeftButton);
+  auto* tour = d.widget<QFrame>("tour");
+  QTRY_VERIFY(tour->isVisible());
+  bool hasSeenView = false;
+  while (tour->isVisible()) {
+    const QString title = d.text("tourTitle");
+    // The frame is around what the card is about.
+    const QRect framed = d.widget<QFrame>("tourFrame")->geometry();
+    QVERIFY2(!tour->geometry().contains(framed.center()), qPrintable(title));
+    if (title == QStringLiteral("The view")) {
+      hasSeenView = true;
+      QRect middle(QPoint(0, 0), framed.size() / 4);
+      middle.moveCenter(framed.center());
+      QVERIFY(!tour->geometry().intersects(middle));
+      QVERIFY2(framed.contains(tour->geometry()), "beside it there is no room");
+    }
+    QTest::mouseClick(d.widget<QPushButton>("tourNext"), Qt::LeftButton);
+  }
+  QVERIFY(hasSeenView);
 }
 
 void DesktopWindowShellTest::theTourHearsKeysAfterAClickIntoTheViewAndEndsWithItsScene() {

@@ -47,6 +47,7 @@ void FeaturePickerTest::featuresOfExactSurfacesSaySo() {
 void FeaturePickerTest::diametersHaveTheFiguresOfMeasuredDistances() {
   AlignFeature circle{FeatureShape::Circle, {}, {0.0, 0.0, 1.0}, 0.006172};
   QCOMPARE(ui::describeFeature(circle), QStringLiteral("Circle ⌀ 12.344 mm"));
+  QCOMPARE(ui::describeFeatureWithin(circle), QStringLiteral("circle ⌀ 12.344 mm"));
   circle.isExact = true;
   QCOMPARE(ui::describeFeature(circle), QStringLiteral("Exact circle ⌀ 12.344 mm"));
   circle.radius = 0.1234565;

@@ -50,7 +50,7 @@ Exporter::Exporter(Session& session, const Selection& selection, const SceneWork
       copy_(makeAction(this, "copyPlacement", tr("&Copy placement"), QStringLiteral("copy"),
                        QStringLiteral("Ctrl+Shift+C"))),
       reporter_(new Reporter(session_, work_, poseOfMoving_, window_, this)) {
-  copy_->setToolTip(tr("Copy the selected part's placement as a 4x4 matrix by rows, in metres"));
+  setHelp(*copy_, tr("Copy the selected part's placement as a 4x4 matrix by rows, in metres"));
   connect(export_, &QAction::triggered, this, [this] {
     emit sceneNeeded();
     askAndExport();

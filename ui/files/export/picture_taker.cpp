@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "ui/files/export/picture_dialog.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/paths.h"
 #include "ui/widgets/picture_file.h"
 #include "ui/widgets/preferences.h"
@@ -34,11 +35,10 @@ PictureTaker::PictureTaker(const Session& session, ViewPicture& pictures, QWidge
       copy_(new QAction(tr("Cop&y picture"), this)) {
   save_->setObjectName(QStringLiteral("savePicture"));
   save_->setShortcut(QKeySequence(QStringLiteral("Ctrl+Shift+P")));
-  save_->setToolTip(tr("Save a picture of the view, in any size"));
+  setHelp(*save_, tr("Save a picture of the view, in any size"));
   copy_->setObjectName(QStringLiteral("copyPicture"));
   copy_->setShortcut(QKeySequence(QStringLiteral("Ctrl+Alt+C")));
-  copy_->setToolTip(
-      tr("Copy a picture of the view to the clipboard, with the options of the last saved one"));
+  setHelp(*copy_, tr("Copy a picture of the view to the clipboard, with the options of the last saved one"));
   connect(save_, &QAction::triggered, this, &PictureTaker::askAndSave);
   connect(copy_, &QAction::triggered, this,
           [this] { putOnClipboard(pictures_.take(PictureDialog::remembered())); });

@@ -27,6 +27,11 @@ bool isOtherPartVisible(const Scene& scene) {
   });
 }
 
+/// Help of the action that starts, while it can be used.
+QString startHelp() {
+  return FeelControl::tr("Start the servo: feel the moving part against the others");
+}
+
 }  // namespace
 
 FeelControl::FeelControl(Session& session, const HandState& hand, SceneWork& work, QWidget* window)
@@ -52,9 +57,7 @@ FeelControl::FeelControl(Session& session, const HandState& hand, SceneWork& wor
 }
 
 void FeelControl::makeActions() {
-  start = makeAction(this, "start", tr("&Feel"), QStringLiteral("start"), Qt::Key_F5,
-                     tr("Start the servo: feel the moving part against the others"));
-  startHelp_ = start->toolTip();
+  start = makeAction(this, "start", tr("&Feel"), QStringLiteral("start"), Qt::Key_F5, startHelp());
   stop = makeAction(this, "stop", tr("S&top"), QStringLiteral("stop"), Qt::Key_F6,
                     tr("Stop the servo and leave the part where it is"));
   clutch = makeAction(this, "clutch", tr("&Clutch"), QStringLiteral("clutch"), Qt::Key_F9,
@@ -137,7 +140,7 @@ void FeelControl::updateActions() {
   const bool isTaken = hand_.status().isTaken();
   const QString why = whyNotFelt();
   start->setEnabled(why.isEmpty() && !isTaken);
-  start->setToolTip(why.isEmpty() || isTaken ? startHelp_ : why);
+  setHelp(*start, why.isEmpty() || isTaken ? startHelp() : why);
   start->setStatusTip(isTaken ? QString() : why);
   stop->setEnabled(isTaken);
   clutch->setEnabled(hand_.isHeldBy(Hand::Device));

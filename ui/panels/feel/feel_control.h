@@ -113,7 +113,6 @@ class FeelControl : public QObject {
   PresetStore* presets_;
   FeelDialog* dialog_;
   FeelPanel* panel_ = nullptr;
-  QString startHelp_;  ///< Tooltip of `start` while it can be used.
   /// Set while a start waits for hierarchies. Keeps the device chosen: if it is unplugged meanwhile, no
   /// other one takes its place.
   std::optional<WantedHand> wanted_;

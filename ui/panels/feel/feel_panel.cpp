@@ -167,6 +167,9 @@ void FeelPanel::setUpReadouts() {
   lead_ = felt_->add(tr("Hand offset"), "lead", tr("Distance from the part to where the hand wants it"));
   energy_ = felt_->add(tr("Energy to hand"), "energy", tr("Net energy given to the hand since the start"));
   clamped_ = felt_->addNote("clamped", colours::kForce);
+  // It comes and goes with each push: without a place of its own it would shift all that is below it.
+  clamped_->ensurePolished();
+  clamped_->setMinimumHeight(clamped_->fontMetrics().lineSpacing());
   rate_ = servo_->add(tr("Rate"), "rate");
   lateness_ = servo_->add(tr("Lateness, p99"), "lateness");
   tick_ = servo_->add(tr("Tick, p99"), "tick");

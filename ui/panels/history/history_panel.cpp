@@ -16,8 +16,23 @@
 namespace nearfit::ui {
 namespace {
 
-/// Smaller shifts are left by rounding [m]; smaller angles would show as 0.0° [rad].
-constexpr double kMinShift = 1e-8, kMinAngle = 8.7e-4;
+/// The least shift that is shown, 0.01 µm [m], and the least angle, half of 0.001° [rad]: less would be nothing but zeros.
+constexpr double kMinShift = 1e-8, kMinAngle = 8.73e-6;
+
+/// Formats an angle [rad] with one decimal, or with the three of number fields if it would show as 0.0°.
+QString formatTurn(double angle) {
+  constexpr double kSmall = 0.05;  // [degrees]
+  const double degrees = glm::degrees(angle);
+  return formatFixed(degrees, degrees < kSmall ? 3 : 1) + QChar(0xB0);
+}
+
+/// Says of a move that would show as none how small it is.
+QString formatTinyMove(const Session::Step& step) {
+  constexpr double kLeastDegrees = 0.001;
+  const bool isTurn = step.angle / kMinAngle > step.shift / kMinShift;
+  return HistoryModel::tr("under %1")
+      .arg(isTurn ? formatFixed(kLeastDegrees, 3) + QChar(0xB0) : formatLength(kMinShift));
+}
 
 }  // namespace
 
@@ -41,11 +56,11 @@ QString HistoryModel::text(int row) const {
   const Session::Step& step = steps_[static_cast<std::size_t>(row)];
   if (step.label.empty()) return tr("Beginning");
   QString text = QString::fromStdString(step.label);
-  if (step.shift >= kMinShift) text += QStringLiteral(", ") + formatLength(step.shift);
-  if (step.angle >= kMinAngle) {
-    const QChar degree(0xB0);
-    text += QStringLiteral(", ") + formatFixed(glm::degrees(step.angle), 1) + degree;
-  }
+  const bool isShift = step.shift >= kMinShift, isTurn = step.angle >= kMinAngle;
+  if (isShift) text += QStringLiteral(", ") + formatLength(step.shift);
+  if (isTurn) text += QStringLiteral(", ") + formatTurn(step.angle);
+  const bool isMove = step.shift > 0.0 || step.angle > 0.0;
+  if (isMove && !isShift && !isTurn) text += QStringLiteral(", ") + formatTinyMove(step);
   return text;
 }
 

@@ -18,11 +18,7 @@ void showStep(QAction& action, const QString& verb, const QString& help, const s
   // An ampersand in a part's name must not become a menu mnemonic.
   const QString name = shortName(step).replace(QChar('&'), QStringLiteral("&&"));
   action.setText(step.empty() ? verb : verb + QChar(' ') + name);
-  const QString keys = action.shortcut().toString(QKeySequence::NativeText);
-  const QString what = step.empty() ? QString() : QStringLiteral(": ") + shortName(step);
-  // A part's name must not be read as markup.
-  const QString tip = QStringLiteral("%1%2 (%3)").arg(help, what, keys);
-  action.setToolTip(QStringLiteral("<qt>%1</qt>").arg(tip.toHtmlEscaped()));
+  setHelp(action, help);
 }
 
 }  // namespace

@@ -69,12 +69,12 @@ void PartCommands::makeActions() {
       this, "refine", tr("Re&fine…"), {}, {},
       tr("Make the triangles of the selected parts finer or coarser, if their file holds exact surfaces"));
   takeInHand =
-      makeAction(this, "takeInHand", tr("&Take in hand"), QStringLiteral("hand"), QStringLiteral("Ctrl+H"));
-  takeInHand->setToolTip(tr("Make the selected part the moving part, or the selected group move as one"));
+      makeAction(this, "takeInHand", tr("&Take in hand"), QStringLiteral("hand"), QStringLiteral("Ctrl+H"),
+                 tr("Make the selected part the moving part, or the selected group move as one"));
   remove = makeAction(this, "remove", tr("De&lete"), QStringLiteral("delete"), QKeySequence::Delete,
                       tr("Delete the selected parts and groups from the scene; their files stay"));
-  selectAll = makeAction(this, "selectAll", tr("Select &all"), {}, QKeySequence::SelectAll);
-  selectAll->setToolTip(tr("Select all visible parts"));
+  selectAll = makeAction(this, "selectAll", tr("Select &all"), {}, QKeySequence::SelectAll,
+                         tr("Select all visible parts"));
   selectNone = makeAction(this, "selectNone", tr("Select n&one"), {}, QStringLiteral("Ctrl+Shift+A"),
                           tr("Clear the selection"));
 }
@@ -165,10 +165,9 @@ void PartCommands::update() {
   };
   const bool isUnitFixed = std::ranges::any_of(selected, hasFixedUnit);
   changeUnit->setEnabled(areFree && !isUnitFixed);
-  changeUnit->setToolTip(isUnitFixed
-                             ? tr("The file of a selected part stores its unit, and sizes are right in "
-                                  "that: export it from the CAD system in another size")
-                             : unitHelp());
+  setHelp(*changeUnit, isUnitFixed ? tr("The file of a selected part stores its unit, and sizes are right in "
+                                        "that: export it from the CAD system in another size")
+                                   : unitHelp());
   refine->setEnabled(areFree && std::ranges::all_of(selected, canRefine));
   // Looking is possible at any time.
   check->setEnabled(part != nullptr);
@@ -230,9 +229,16 @@ void PartCommands::setLocked(const SceneNodes& nodes, bool isLocked) {
 
 void PartCommands::deleteSelected() {
   const SceneNodes nodes = context_.selection.nodes();
-  if (std::ranges::any_of(nodes.parts, [this](PartId part) { return context_.hand.holds(part); }))
-    emit servoStopRequested();
-  attempt(tr("The part could not be deleted."), [&] { context_.session.deleteNodes(nodes); });
+  const Scene& scene = context_.session.scene();
+  const std::vector<PartId> parts = partsOf(scene, nodes);
+  const auto held = std::ranges::find_if(parts, [this](PartId part) { return context_.hand.holds(part); });
+  const bool isHeld = held != parts.end();
+  const QString name = isHeld ? shortName(scene.get(*held).name) : QString();
+  if (isHeld) emit servoStopRequested();
+  attempt(tr("The part could not be deleted."), [&] {
+    context_.session.deleteNodes(nodes);
+    if (isHeld) emit noted(tr("Feeling has stopped: %1 was deleted").arg(name));
+  });
 }
 
 void PartCommands::duplicateSelected() {

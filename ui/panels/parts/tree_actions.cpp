@@ -9,6 +9,7 @@
 #include "core/session/session.h"
 #include "ui/model/scene_work.h"
 #include "ui/model/selection.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -17,17 +18,17 @@ TreeActions::TreeActions(Session& session, Selection& selection, const SceneWork
                          QObject* parent)
     : QObject(parent), session_(session), selection_(selection), work_(work), attempt_(std::move(attempt)) {
   group_ = make("group", tr("&Group"), "folder", "Ctrl+G", &TreeActions::groupSelected);
-  group_->setToolTip(tr("Put the selected parts and groups into a new group"));
+  setHelp(*group_, tr("Put the selected parts and groups into a new group"));
   ungroup_ = make("ungroup", tr("Ungrou&p"), {}, "Ctrl+Shift+G", &TreeActions::ungroupSelected);
-  ungroup_->setToolTip(tr("Dissolve the selected groups; their contents stay"));
+  setHelp(*ungroup_, tr("Dissolve the selected groups; their contents stay"));
   visible_ = make("toggleVisible", tr("&Hide"), "eye", "H", &TreeActions::toggleVisible);
   lock_ = make("toggleLock", tr("Loc&k"), "lock", "Ctrl+L", &TreeActions::toggleLock);
-  visible_->setToolTip(tr("Hide or show the selected parts; hidden parts are not felt (H)"));
-  lock_->setToolTip(tr("Lock or unlock the selected parts and groups (Ctrl+L)"));
+  setHelp(*visible_, tr("Hide or show the selected parts; hidden parts are not felt"));
+  setHelp(*lock_, tr("Lock or unlock the selected parts and groups"));
   isolate_ = make("isolate", tr("&Isolate"), "isolate", "I", &TreeActions::isolate);
-  isolate_->setToolTip(tr("Show only the selected parts; hidden parts are not felt"));
+  setHelp(*isolate_, tr("Show only the selected parts; hidden parts are not felt"));
   endIsolation_ = make("endIsolation", tr("End i&solation"), {}, "Shift+I", &TreeActions::endIsolation);
-  endIsolation_->setToolTip(tr("Show the parts that were visible before"));
+  setHelp(*endIsolation_, tr("Show the parts that were visible before"));
   setUpTransparency();
   connect(&selection_, &Selection::changed, this, &TreeActions::update);
   connect(&work_, &SceneWork::busyChanged, this, &TreeActions::update);
@@ -39,10 +40,7 @@ TreeActions::~TreeActions() = default;
 
 QAction* TreeActions::make(const char* name, const QString& text, const QString& iconName,
                            const QString& keys, void (TreeActions::*run)()) {
-  auto* action = new QAction(text, this);
-  action->setObjectName(QLatin1String(name));
-  if (!iconName.isEmpty()) action->setIcon(icon(iconName));
-  action->setShortcut(QKeySequence(keys));
+  QAction* action = makeAction(this, name, text, iconName, QKeySequence(keys));
   connect(action, &QAction::triggered, this, run);
   return action;
 }

@@ -6,6 +6,7 @@
 
 #include "ui/model/hand_state.h"
 #include "ui/widgets/format.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/save_file.h"
@@ -18,7 +19,7 @@ RecordAction::RecordAction(const HandState& hand, QWidget* window)
   setObjectName(QStringLiteral("record"));
   setShortcut(QKeySequence(Qt::Key_F8));
   setCheckable(true);
-  setToolTip(tr("Record every tick to a file until you stop"));
+  setHelp(*this, tr("Record every tick to a file until you stop"));
   connect(this, &QAction::triggered, this, [this](bool isOn) {
     if (isOn) {
       askAndStart();

@@ -73,7 +73,7 @@ Replay::Replay(const Context& context, Timeline& timeline, QWidget* window)
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.setInterval(kFrameMs);
   connect(&timer_, &QTimer::timeout, this, &Replay::goOn);
-  open_->setToolTip(tr("Play a recorded motion or a path, with a timeline to go back and forth"));
+  setHelp(*open_, tr("Play a recorded motion or a path, with a timeline to go back and forth"));
   connect(open_, &QAction::triggered, this, &Replay::askAndOpen);
   connectTimeline();
   connect(&hand_, &HandState::changed, this, &Replay::followHand);

@@ -14,6 +14,7 @@
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/elided_label.h"
 #include "ui/widgets/format.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/theme.h"
@@ -164,7 +165,7 @@ MeasureTool::MeasureTool(const Session& session, Viewport& view, QObject* parent
   action_->setObjectName(QStringLiteral("measure"));
   action_->setCheckable(true);
   action_->setShortcut(QKeySequence(Qt::Key_M));
-  action_->setToolTip(tr("Measure between two points, edges or faces that you click (M)"));
+  setHelp(*action_, tr("Measure between two points, edges or faces that you click"));
   connect(action_, &QAction::toggled, this, [this](bool isOn) { isOn ? start() : stop(); });
   connect(&picker_, &FeaturePicker::picked, this, &MeasureTool::take);
   connect(&picker_, &FeaturePicker::told, this, &MeasureTool::tell);
@@ -205,7 +206,7 @@ void MeasureTool::take(const FeaturePick& pick) {
   const PartGeometry& geometry = *part->geometry;
   const End end{pick.part, part->geometry,
                 measureEnd(geometry.mesh, pick.picked, pick.hit, geometry.surfaces.get()),
-                tr("%1 of %2").arg(describeFeature(pick.picked.feature), shortName(part->name))};
+                tr("%1 of %2").arg(describeFeatureWithin(pick.picked.feature), shortName(part->name))};
   if (!from_ || to_) {
     forget();
     from_ = end;

@@ -303,7 +303,7 @@ void AlignTool::applyJoint() {
 QString AlignTool::prompt() const {
   if (!moving_) return tr(rule_->movingPrompt);
   if (!fixed_) return tr(rule_->fixedPrompt);
-  return tr("%1 to %2").arg(describeFeature(moving_->inPart), describeFeature(fixed_->inPart).toLower());
+  return tr("%1 to %2").arg(describeFeature(moving_->inPart), describeFeatureWithin(fixed_->inPart));
 }
 
 QString AlignTool::idleHint() const {

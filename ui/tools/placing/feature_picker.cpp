@@ -25,6 +25,10 @@ QString diameterText(double radius) {
   return lengthIn(unit, 2.0 * radius, measuredDecimals(unit, 2.0 * radius));
 }
 
+QString withSmallInitial(const QString& text) {
+  return text.left(1).toLower() + text.mid(1);
+}
+
 QString describeTorus(const AlignFeature& torus) {
   return QObject::tr("Torus ⌀ %1, tube ⌀ %2")
       .arg(diameterText(torus.radius), diameterText(torus.minorRadius));
@@ -60,7 +64,11 @@ QString describeShape(const AlignFeature& feature) {
 
 QString describeFeature(const AlignFeature& feature) {
   const QString shape = describeShape(feature);
-  return feature.isExact ? QObject::tr("Exact %1").arg(shape.left(1).toLower() + shape.mid(1)) : shape;
+  return feature.isExact ? QObject::tr("Exact %1").arg(withSmallInitial(shape)) : shape;
+}
+
+QString describeFeatureWithin(const AlignFeature& feature) {
+  return withSmallInitial(describeFeature(feature));
 }
 
 FeaturePicker::FeaturePicker(const Session& session, Viewport& view, const QColor& colour, QObject* parent)

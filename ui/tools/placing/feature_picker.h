@@ -27,6 +27,8 @@ struct FeaturePick {
 /// Returns the name of a feature: "Flat face", "Circle ⌀ 12.344 mm", and of one by exact surfaces "Exact circle
 /// ⌀ 12.344 mm". Diameters have the figures of measured distances.
 QString describeFeature(const AlignFeature& feature);
+/// The same to stand within a sentence: "circle ⌀ 12.344 mm".
+QString describeFeatureWithin(const AlignFeature& feature);
 
 /// Lets the user pick features in the view: highlights the one under the pointer and reports
 /// clicks on it. Drags, the wheel and other buttons still control the view. One at a time: starting a

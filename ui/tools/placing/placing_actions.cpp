@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "ui/widgets/font_scale.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/split_button.h"
-#include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 namespace {
@@ -59,13 +59,7 @@ PlacingActions::PlacingActions(QObject* parent) : QObject(parent) {
 
 QAction* PlacingActions::make(const char* name, const QString& text, const char* iconName,
                               const QKeySequence& keys, const QString& tip) {
-  auto* action = new QAction(icon(QLatin1String(iconName)), text, this);
-  action->setObjectName(QLatin1String(name));
-  action->setShortcut(keys);
-  const QString shortcut =
-      keys.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(keys.toString(QKeySequence::NativeText));
-  action->setToolTip(tip + shortcut);
-  return action;
+  return makeAction(this, name, text, QLatin1String(iconName), keys, tip);
 }
 
 QAction* PlacingActions::makeSwitch(const char* name, const QString& text, const char* iconName,

@@ -12,6 +12,7 @@
 #include "ui/model/shown_poses.h"
 #include "ui/tools/placing/gizmo_control.h"
 #include "ui/view3d/viewport.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/theme.h"
@@ -47,7 +48,7 @@ SectionTool::SectionTool(const Session& session, Viewport& view, QWidget* window
   action_->setObjectName(QStringLiteral("section"));
   action_->setCheckable(true);
   action_->setShortcut(QKeySequence(Qt::Key_C));
-  action_->setToolTip(tr("Cut the view open by a plane (C)"));
+  setHelp(*action_, tr("Cut the view open by a plane"));
   connect(action_, &QAction::toggled, this, [this](bool isOn) { isOn ? start() : stop(); });
   connectBar();
   connectHandle();

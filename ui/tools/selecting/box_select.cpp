@@ -8,6 +8,7 @@
 
 #include "ui/model/selection.h"
 #include "ui/view3d/viewport.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -22,7 +23,7 @@ BoxSelect::BoxSelect(Selection& selection, Viewport& view, QObject* parent)
   action_->setObjectName(QStringLiteral("boxSelect"));
   action_->setCheckable(true);
   action_->setShortcut(QKeySequence(Qt::Key_B));
-  action_->setToolTip(tr("Drag a box to select the parts seen in it; Shift adds, Ctrl adds or removes (B)"));
+  setHelp(*action_, tr("Drag a box to select the parts seen in it; Shift adds, Ctrl adds or removes"));
   connect(action_, &QAction::toggled, this, [this](bool isOn) { isOn ? begin() : end(); });
 }
 

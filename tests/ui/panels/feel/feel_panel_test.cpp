@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QLabel>
+#include <QLayout>
 #include <QScrollArea>
 #include <QToolButton>
 #include <QtTest>
@@ -23,6 +24,7 @@ class FeelPanelTest : public QObject {
  private slots:
   void aMinDistanceThatIsOnlyABoundIsSaidToBeOne();
   void aLimitIsTheDevicesOnlyIfThereIsOne();
+  void theNoteOnALimitShiftsNothing();
   void longTextsDoNotWidenThePanelBeyondItsDock();
   void overlapsOfAGroupAreOfTheGroup();
   void overlapsWithSpringsAreNotSaidToBeUnfelt();
@@ -72,6 +74,39 @@ void FeelPanelTest::aLimitIsTheDevicesOnlyIfThereIsOne() {
   panel.showStatus(status);
   panel.showSnapshot(*snapshot, Scene());
   QCOMPARE(clamped->text(), QStringLiteral("Limited to the device's maximum."));
+}
+
+/// What is below it moved down as it came, and up again as it went.
+void FeelPanelTest::theNoteOnALimitShiftsNothing() {
+  const test::TemporaryFolder folder;
+  ui::PresetStore presets(folder.path() / "presets.json");
+  QAction clutch;
+  ui::FeelPanel panel({new QToolButton, &clutch, presets});
+  const auto* felt = panel.findChild<QWidget*>(QStringLiteral("feltNumbers"));
+  const auto* clamped = panel.findChild<QLabel*>(QStringLiteral("clamped"));
+  QVERIFY(felt != nullptr && clamped != nullptr);
+  // Wide enough for the longest text in one line.
+  const auto height = [felt] { return felt->layout()->totalHeightForWidth(600); };
+  ui::ServoStatus status;
+  status.isRunning = true;
+  status.hand = ui::Hand::Manual;
+  status.device.maxForce = 10.0;
+  panel.showStatus(status);
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  panel.showSnapshot(*snapshot, Scene());
+  const int without = height();
+  QVERIFY(without > 0);
+  for (int again = 0; again < 2; ++again) {
+    snapshot->isClamped = true;
+    snapshot->unclampedWrench.force = {0.0, 0.0, 12.0};
+    panel.showSnapshot(*snapshot, Scene());
+    QVERIFY(!clamped->text().isEmpty());
+    QCOMPARE(height(), without);
+    snapshot->isClamped = false;
+    panel.showSnapshot(*snapshot, Scene());
+    QVERIFY(clamped->text().isEmpty());
+    QCOMPARE(height(), without);
+  }
 }
 
 void FeelPanelTest::longTextsDoNotWidenThePanelBeyondItsDock() {
