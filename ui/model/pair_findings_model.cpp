@@ -11,7 +11,7 @@
 namespace nearfit::ui {
 namespace {
 
-const QString kUnknown = QStringLiteral("–");
+const QString kNoValue = QStringLiteral("–");
 
 QString partNameIn(const Scene& scene, PartId id) {
   return QString::fromStdString(scene.get(id).name);
@@ -135,7 +135,7 @@ QString stateText(const ShownFinding& finding) {
 }
 
 QString changeText(const ShownFinding& finding) {
-  if (!finding.change) return kUnknown;
+  if (!finding.change) return kNoValue;
   const QString change = nameOf(*finding.change);
   if (!finding.before || *finding.change == FindingChange::Same) return change;
   const PairRecord& before = *finding.before;
@@ -232,11 +232,11 @@ QString PairFindingsModel::textOf(const ShownFinding& row, int column) {
     case Verdict:
       return row.rule.isEmpty() ? nameOf(row.verdict) : tr("%1, allowed").arg(nameOf(row.verdict));
     case Distance:
-      return row.distance ? formatLength(*row.distance) : kUnknown;
+      return row.distance ? formatLength(*row.distance) : kNoValue;
     case Depth:
-      return row.depth ? depthText(row) : kUnknown;
+      return row.depth ? depthText(row) : kNoValue;
     case Volume:
-      return row.volume ? formatVolume(*row.volume) : kUnknown;
+      return row.volume ? formatVolume(*row.volume) : kNoValue;
     case Change:
       return changeText(row);
     case State:

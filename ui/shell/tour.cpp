@@ -16,7 +16,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr int kWidth = 330, kGap = 12;
+constexpr int kTourWidth = 330, kTourGap = 12;
 
 }  // namespace
 
@@ -106,21 +106,21 @@ void Tour::place() {
   const QRect around(where->mapTo(parentWidget(), QPoint(0, 0)), where->size());
   const QRect whole = parentWidget()->rect();
   frame_->setGeometry(around.adjusted(-2, -2, 2, 2).intersected(whole));
-  const int wide = forFont(*this, kWidth);
+  const int wide = forFont(*this, kTourWidth);
   resize(wide, layout()->hasHeightForWidth() ? layout()->totalHeightForWidth(wide)
                                              : layout()->totalSizeHint().height());
   const int left = around.left(), right = whole.width() - around.right();
   const int top = around.top(), bottom = whole.height() - around.bottom();
   QPoint corner(around.center().x() - width() / 2, around.center().y() - height() / 2);
-  if (std::max(left, right) < width() + 2 * kGap && std::max(top, bottom) < height() + 2 * kGap) {
-    corner = around.topLeft() + QPoint(kGap, kGap);
-  } else if (std::max(left, right) >= width() + 2 * kGap) {
-    corner.setX(right >= left ? around.right() + kGap : around.left() - kGap - width());
+  if (std::max(left, right) < width() + 2 * kTourGap && std::max(top, bottom) < height() + 2 * kTourGap) {
+    corner = around.topLeft() + QPoint(kTourGap, kTourGap);
+  } else if (std::max(left, right) >= width() + 2 * kTourGap) {
+    corner.setX(right >= left ? around.right() + kTourGap : around.left() - kTourGap - width());
   } else {
-    corner.setY(bottom >= top ? around.bottom() + kGap : around.top() - kGap - height());
+    corner.setY(bottom >= top ? around.bottom() + kTourGap : around.top() - kTourGap - height());
   }
-  move(std::clamp(corner.x(), kGap, std::max(kGap, whole.width() - width() - kGap)),
-       std::clamp(corner.y(), kGap, std::max(kGap, whole.height() - height() - kGap)));
+  move(std::clamp(corner.x(), kTourGap, std::max(kTourGap, whole.width() - width() - kTourGap)),
+       std::clamp(corner.y(), kTourGap, std::max(kTourGap, whole.height() - height() - kTourGap)));
 }
 
 bool Tour::eventFilter(QObject* watched, QEvent* event) {

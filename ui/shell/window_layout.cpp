@@ -12,7 +12,7 @@ namespace {
 
 /// Raise it when docks change so that a saved layout no longer fits.
 constexpr int kVersion = 2;
-const QString kKey = QStringLiteral("window/layout");
+const QString kLayoutKey = QStringLiteral("window/layout");
 
 }  // namespace
 
@@ -22,7 +22,7 @@ WindowLayout::WindowLayout(QMainWindow* window)
 void WindowLayout::restore() {
   window_->restoreGeometry(Preferences::windowGeometry());
   // Does nothing without a saved layout of this version.
-  window_->restoreState(QSettings().value(kKey).toByteArray(), kVersion);
+  window_->restoreState(QSettings().value(kLayoutKey).toByteArray(), kVersion);
   fitToScreen();
 }
 
@@ -39,7 +39,7 @@ void WindowLayout::fitToScreen() {
 
 void WindowLayout::remember() const {
   Preferences::setWindowGeometry(window_->saveGeometry());
-  QSettings().setValue(kKey, window_->saveState(kVersion));
+  QSettings().setValue(kLayoutKey, window_->saveState(kVersion));
 }
 
 void WindowLayout::reset() {

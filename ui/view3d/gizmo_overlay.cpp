@@ -16,7 +16,7 @@ namespace nearfit::ui {
 namespace {
 
 /// Margin around the figures, for line widths and rims [pixels].
-constexpr int kRoom = 8;
+constexpr int kGizmoRoom = 8;
 constexpr double kLine = 3.0, kRing = 2.6, kFarSide = 1.5, kOutline = 1.5, kHotter = 1.4, kRim = 2.6;
 constexpr double kSquareFill = 0.38, kHotFill = 0.75, kSteppedBack = 0.22, kRimOpacity = 0.8;
 const QColor kHot(0xff, 0xa8, 0x00);
@@ -79,7 +79,8 @@ QRect GizmoOverlay::extent() const {
     for (const auto* line : {&picture_->guide->line, &picture_->guide->way, &picture_->guide->sector})
       box |= polygonOf(*line).boundingRect();
   }
-  return box.toAlignedRect().adjusted(-kRoom, -kRoom, kRoom, kRoom) & parentWidget()->rect();
+  return box.toAlignedRect().adjusted(-kGizmoRoom, -kGizmoRoom, kGizmoRoom, kGizmoRoom) &
+         parentWidget()->rect();
 }
 
 void GizmoOverlay::paintEvent(QPaintEvent*) {

@@ -24,7 +24,7 @@ constexpr std::size_t kFirstBudget = 120'000, kMinBudget = 30'000, kMaxBudget = 
 /// A picture that takes longer is drawn coarser next time, one that takes less finer [ms]. Software OpenGL
 /// needs another 10 ms to bring it to the screen.
 constexpr qint64 kSlow = 36, kQuick = 15;
-constexpr int kStillMs = 150, kRestMs = 220;
+constexpr int kStillMs = 150, kDetailRestMs = 220;
 /// Time for the kept picture before events are handled again.
 constexpr std::chrono::microseconds kTurn = 15ms;
 
@@ -35,7 +35,7 @@ ViewDetail::ViewDetail(CachingRenderer& renderer, vtkRenderer& overlay, SceneRen
   for (QTimer* timer : {&still_, &resting_, &next_})
     timer->setSingleShot(true);
   still_.setInterval(kStillMs);
-  resting_.setInterval(kRestMs);
+  resting_.setInterval(kDetailRestMs);
   next_.setInterval(0);
   connect(&still_, &QTimer::timeout, this, &ViewDetail::beginKeeping);
   connect(&resting_, &QTimer::timeout, this, &ViewDetail::rest);

@@ -64,7 +64,8 @@ const QString kFailureDialog = QStringLiteral("errorBox");  ///< Object name.
 enum Column { Name, Reason, Remedy, ColumnCount };
 
 constexpr int kTextWidth = 400, kTableWidth = 760, kNameWidth = 200;
-constexpr int kRowHeight = 56, kMaxHeight = 340;  ///< Initial size of the table; the user may enlarge it.
+constexpr int kTableRowHeight = 56,
+              kMaxTableHeight = 340;  ///< Initial size of the table; the user may enlarge it.
 /// Nobody reads more, and a longer table responds slowly; copying includes all rows.
 constexpr int kMaxRows = 500;
 
@@ -177,7 +178,8 @@ void FailureDialog::showTable(const QVector<FailedItem>& rows, bool areFiles) {
   table_->setHorizontalHeaderLabels({areFiles ? tr("File") : tr("What failed"), tr("Why"), tr("What to do")});
   const auto all = static_cast<int>(rows.size()), shown = std::min(all, kMaxRows);
   table_->setRowCount(shown + (shown < all ? 1 : 0));
-  table_->setMinimumHeight(forFont(*this, std::min(kMaxHeight, kRowHeight * (table_->rowCount() + 1))));
+  table_->setMinimumHeight(
+      forFont(*this, std::min(kMaxTableHeight, kTableRowHeight * (table_->rowCount() + 1))));
   for (int row = 0; row < shown; ++row) {
     const QString texts[] = {rows[row].name, rows[row].reason, rows[row].remedy};
     for (int column = Name; column < ColumnCount; ++column) {

@@ -16,7 +16,7 @@ namespace nearfit::ui {
 namespace {
 
 /// Leaves the corner to the view's orientation marker [pixels].
-constexpr int kMargin = 10, kMarkerWidth = 130, kMaxWidth = 760;
+constexpr int kNoticeMargin = 10, kMarkerWidth = 130, kMaxWidth = 760;
 
 }  // namespace
 
@@ -88,10 +88,10 @@ bool NoticeBar::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void NoticeBar::place() {
-  const int width = std::min(parentWidget()->width() - 2 * kMargin - kMarkerWidth, kMaxWidth);
+  const int width = std::min(parentWidget()->width() - 2 * kNoticeMargin - kMarkerWidth, kMaxWidth);
   const int height = layout()->hasHeightForWidth() ? layout()->totalHeightForWidth(width)
                                                    : layout()->totalSizeHint().height();
-  setGeometry((parentWidget()->width() - kMarkerWidth - width) / 2, kMargin, width, height);
+  setGeometry((parentWidget()->width() - kMarkerWidth - width) / 2, kNoticeMargin, width, height);
 }
 
 }  // namespace nearfit::ui

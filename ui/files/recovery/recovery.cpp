@@ -33,7 +33,7 @@ QString timeText(std::chrono::system_clock::time_point time) {
   return QLocale().toString(local, QLocale::ShortFormat);
 }
 
-QString nameOf(const LostWork& work) {
+QString lostWorkName(const LostWork& work) {
   return work.head.scene.empty() ? QObject::tr("Untitled scene, never saved")
                                  : fromPath(work.head.scene.filename());
 }
@@ -95,7 +95,7 @@ void RecoveryDialog::addRow(const LostWork& work, int number) {
   row->setObjectName(QStringLiteral("lost%1").arg(number));
   row->setFrameShape(QFrame::StyledPanel);
   auto* layout = new QVBoxLayout(row);
-  QLabel* name = plainLabel(nameOf(work), row);
+  QLabel* name = plainLabel(lostWorkName(work), row);
   QFont bold = name->font();
   bold.setBold(true);
   name->setFont(bold);
@@ -109,7 +109,7 @@ void RecoveryDialog::addRow(const LostWork& work, int number) {
   const auto addButton = [&](const QString& text, const char* objectName, QDialogButtonBox::ButtonRole role) {
     QPushButton* button = buttons->addButton(text, role);
     button->setObjectName(QLatin1String(objectName) + QString::number(number));
-    button->setAccessibleName(tr("%1: %2").arg(text, nameOf(work)));
+    button->setAccessibleName(tr("%1: %2").arg(text, lostWorkName(work)));
     button->setAutoDefault(false);
     return button;
   };

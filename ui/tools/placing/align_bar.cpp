@@ -14,7 +14,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr double kFarthest = 1e3;  ///< [m]
+constexpr double kFarthestOffset = 1e3;  ///< [m]
 
 }  // namespace
 
@@ -68,7 +68,7 @@ void AlignBar::setUpFields() {
   offset_->setObjectName(QStringLiteral("alignOffset"));
   offset_->setAccessibleName(tr("Distance"));
   offset_->setLength(4);
-  offset_->setQuantityRange(-kFarthest, kFarthest);
+  offset_->setQuantityRange(-kFarthestOffset, kFarthestOffset);
   offset_->setQuantityStep(1e-3);
   offset_->setToolTip(tr("Distance between the two, outward from the target"));
   keep_->setObjectName(QStringLiteral("alignKeep"));

@@ -22,7 +22,7 @@ namespace {
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kUsualLength = 1e-3, kUsualAngle = 15.0 * kRadiansPerDegree;  ///< [m], [rad]
 constexpr double kMinLength = 1e-7, kMaxLength = 1e3;
-constexpr double kMinAngle = 1e-3 * kRadiansPerDegree, kMaxAngle = std::numbers::pi;
+constexpr double kMinAngleStep = 1e-3 * kRadiansPerDegree, kMaxAngleStep = std::numbers::pi;
 constexpr int kDecimals = 4, kFieldWidth = 92;
 
 QVariant kept(const char* key, const QVariant& usual) {
@@ -110,7 +110,7 @@ void PlacingActions::makeSteps() {
   angleStep_ = makeStep("snapAngle", tr("Rotation step"));
   angleStep_->setUnit(QString(QChar(0xB0)));
   angleStep_->setDecimals(kDecimals);
-  angleStep_->setQuantityRange(kMinAngle, kMaxAngle);
+  angleStep_->setQuantityRange(kMinAngleStep, kMaxAngleStep);
   angleStep_->setHelp(tr("Rotation step"));
 }
 
@@ -172,7 +172,7 @@ void PlacingActions::restore() {
   for (QAction* action : {localAxes, snap, solid})
     action->setChecked(kept(action->objectName().toLatin1().constData(), false).toBool());
   lengthStep_->showQuantity(keptStep("snapLength", kUsualLength, kMinLength, kMaxLength));
-  angleStep_->showQuantity(keptStep("snapAngle", kUsualAngle, kMinAngle, kMaxAngle));
+  angleStep_->showQuantity(keptStep("snapAngle", kUsualAngle, kMinAngleStep, kMaxAngleStep));
 }
 
 void PlacingActions::remember() const {

@@ -20,7 +20,7 @@ namespace {
 
 const QString kPlace = QStringLiteral("view/legendPlace");
 constexpr int kMargin = 14;  ///< To the edges of the parent.
-constexpr int kWidth = 226, kInset = 14;
+constexpr int kLegendWidth = 226, kInset = 14;
 constexpr int kBarTop = 34, kBarHeight = 11;
 constexpr int kFirstRow = 86, kRowHeight = 22, kBelowLastRow = 16;  ///< Row positions are baselines.
 constexpr int kGlyphWidth = 25;
@@ -123,7 +123,7 @@ void ColourLegend::setPast(bool isPast) {
 
 QSize ColourLegend::sizeHint() const {
   const int rows = hasProxy_ ? 4 : 2;
-  return scale() * QSize(kWidth, kFirstRow + (rows - 1) * kRowHeight + kBelowLastRow);
+  return scale() * QSize(kLegendWidth, kFirstRow + (rows - 1) * kRowHeight + kBelowLastRow);
 }
 
 double ColourLegend::scale() const {
@@ -170,7 +170,7 @@ void ColourLegend::paintScale(QPainter& painter) {
   painter.drawText(kInset, 23, tr("Local minimum distance"));
   painter.setFont(letters());
 
-  const QRectF bar(kInset, kBarTop, kWidth - 2 * kInset, kBarHeight);
+  const QRectF bar(kInset, kBarTop, kLegendWidth - 2 * kInset, kBarHeight);
   QLinearGradient gradient(bar.topLeft(), bar.topRight());
   constexpr int kSteps = 16;
   for (int i = 0; i <= kSteps; ++i) {
@@ -182,7 +182,7 @@ void ColourLegend::paintScale(QPainter& painter) {
   painter.drawRoundedRect(bar, 2.5, 2.5);
 
   painter.setPen(mutedColour());
-  const QRect labels(kInset, kBarTop + kBarHeight + 3, kWidth - 2 * kInset, 18);
+  const QRect labels(kInset, kBarTop + kBarHeight + 3, kLegendWidth - 2 * kInset, 18);
   painter.drawText(labels, Qt::AlignLeft, tr("contact"));
   painter.drawText(labels, Qt::AlignHCenter, formatLength(0.5 * range_));
   painter.drawText(labels, Qt::AlignRight, formatLength(range_));
@@ -191,7 +191,8 @@ void ColourLegend::paintScale(QPainter& painter) {
 void ColourLegend::paintRow(QPainter& painter, int y, const QString& name, const QString& value) {
   painter.setPen(textColour());
   painter.drawText(kInset + 34, y, name);
-  painter.drawText(QRect(kInset, y - 13, kWidth - 2 * kInset, 18), Qt::AlignRight | Qt::AlignVCenter, value);
+  painter.drawText(QRect(kInset, y - 13, kLegendWidth - 2 * kInset, 18), Qt::AlignRight | Qt::AlignVCenter,
+                   value);
 }
 
 }  // namespace nearfit::ui

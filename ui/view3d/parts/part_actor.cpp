@@ -24,7 +24,7 @@ constexpr double kTranslucentOpacity = 0.28, kWarningOpacity = 0.45;
 constexpr double kOutlinedOpacity = 0.03;
 /// Faint enough to leave the shape and colour of parts in front visible.
 constexpr double kVeilOpacity = 0.13, kVeilEdgeOpacity = 0.55;
-constexpr float kEdgeWidth = 1.3F;
+constexpr float kPartEdgeWidth = 1.3F;
 /// Share of edges on the near side, and max share of the enclosing disc that they may cover: with more, a
 /// small part would be a blot.
 constexpr double kSeenEdges = 0.5, kMaxInk = 0.4;
@@ -94,7 +94,7 @@ void setEdgeColour(vtkProperty& property, const PartLook& look, const Colour& pa
                    bool isOutlined) {
   const QColor colour = isOutlined ? outlineOf(look) : edgeColour(look, part, opacity);
   property.SetColor(colour.redF(), colour.greenF(), colour.blueF());
-  property.SetLineWidth(devicePixels(look.isSelected ? 2.4F : kEdgeWidth));
+  property.SetLineWidth(devicePixels(look.isSelected ? 2.4F : kPartEdgeWidth));
   property.SetOpacity(look.isTranslucent && !look.isSelected && !isOutlined ? 0.55 : 1.0);
 }
 
@@ -370,7 +370,7 @@ void PartActor::setScale(double pixelsPerMetre) {
   double own[6];
   shape().surface->GetBounds(own);
   const double diagonal = vtkBoundingBox(own).GetDiagonalLength();
-  const double inked = kSeenEdges * shape().edgeLength * static_cast<double>(devicePixels(kEdgeWidth));
+  const double inked = kSeenEdges * shape().edgeLength * static_cast<double>(devicePixels(kPartEdgeWidth));
   const double disc = std::numbers::pi * 0.25 * diagonal * diagonal * pixelsPerMetre;
   if (std::exchange(areEdgesApart_, inked <= kMaxInk * disc) == areEdgesApart_) return;
   showPieces();
