@@ -169,7 +169,9 @@ void FeelPanel::setUpReadouts() {
   clamped_ = felt_->addNote("clamped", colours::kForce);
   // It comes and goes with each push: without a place of its own it would shift all that is below it.
   clamped_->ensurePolished();
-  clamped_->setMinimumHeight(clamped_->fontMetrics().lineSpacing());
+  clamped_->setText(QStringLiteral("1"));
+  clamped_->setMinimumHeight(clamped_->sizeHint().height());
+  clamped_->clear();
   rate_ = servo_->add(tr("Rate"), "rate");
   lateness_ = servo_->add(tr("Lateness, p99"), "lateness");
   tick_ = servo_->add(tr("Tick, p99"), "tick");

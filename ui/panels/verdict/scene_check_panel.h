@@ -29,8 +29,8 @@ class Viewport;
 
 /// Checks all pairs of visible parts when asked to, and lists what was found. The view highlights the pairs
 /// of the chosen rows and marks the present one: where two parts meet and how to free them, or where they are
-/// nearest, until something else is selected or Escape is pressed. It leaves the selection alone. What the user says about findings, and the rules, are steps to
-/// undo. While it is hidden the view shows nothing of it.
+/// nearest, until something else is selected or Escape is pressed. It leaves the selection alone. What the user
+/// says about findings, and the rules, are steps to undo. While it is hidden the view shows nothing of it.
 class SceneCheckPanel : public QWidget {
   Q_OBJECT
 
