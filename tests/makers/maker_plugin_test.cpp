@@ -348,7 +348,7 @@ TEST(HaplyService, ThatEndsLosesItsDevices) {
   const std::unique_ptr<HapticDevice> device = bench.make();
   device->start({});
   test::MakerServo servo(*device);
-  bench.endService();
+  bench.service().end();
   EXPECT_TRUE(eventually([&] { return device->state() == DeviceState::Lost; }));
   EXPECT_THAT(device->stateNote(), HasSubstr("Haply Inverse Service"));
   try {
