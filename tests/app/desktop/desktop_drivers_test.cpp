@@ -4,6 +4,7 @@
 #include <QtTest>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -26,6 +27,7 @@ class DesktopDriversTest : public QObject {
   void eachMissingDriverIsAGreyEntryThatSaysWhatToInstall();
   void devicesOfDriversThatAreThereCanBeChosen();
   void aDeviceOfAMakersDriverLeadsThePartAndPushesOnceItIsArmed();
+  void theGripOfADeviceWithAGripperIsShown();
   void aTouchSaysThatTorqueIsNotFelt();
   void anOmega3SaysThatItSensesNoTurning();
   void whatPushesAlongAllOrDoesNotPushSaysNothing();
@@ -147,6 +149,30 @@ void DesktopDriversTest::aDeviceOfAMakersDriverLeadsThePartAndPushesOnceItIsArme
   // Where it was stopped, arming it in that moment may have been refused; nothing else goes wrong.
   for (const ui::Failure& failure : failures)
     QCOMPARE(failure.summary, QStringLiteral("The device could not be armed."));
+}
+
+void DesktopDriversTest::theGripOfADeviceWithAGripperIsShown() {
+  for (const MakerModel& model : {kMakerModels[4], kMakerModels[3]}) {
+    MakerBench bench(model);
+    DriversFixture f;
+    f.d.addCubes();
+    chooseHandNamed(f.d, QStringLiteral("Force Dimension device 1"));
+    if (QTest::currentTestFailed()) return;
+    int snapshots = 0;
+    QObject::connect(&f.d.application.servo(), &desktop::ServoController::snapshotArrived, &f.d.application,
+                     [&] { ++snapshots; });
+    QTest::mouseClick(f.d.widget<QPushButton>("startStop"), Qt::LeftButton);
+    QTRY_VERIFY(snapshots > 2);
+    const bool hasGripper = model.model == 104;
+    QTRY_COMPARE(f.d.widget<QLabel>("grip")->isVisible(), hasGripper);
+    if (hasGripper) {
+      QTRY_COMPARE(f.d.text("grip"), QStringLiteral("21.5°"));
+      bench.device().grip = std::numbers::pi / 12.0;
+      QTRY_COMPARE(f.d.text("grip"), QStringLiteral("15.0°"));
+    }
+    QTest::mouseClick(f.d.widget<QPushButton>("startStop"), Qt::LeftButton);
+    QTRY_VERIFY(!bench.device().isOpen);
+  }
 }
 
 void DesktopDriversTest::aTouchSaysThatTorqueIsNotFelt() {
