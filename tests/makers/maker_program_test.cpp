@@ -145,9 +145,9 @@ TEST_F(MakerProgram, EachDeviceLeadsAPart) {
 TEST_F(MakerProgram, ARecordingHasTheGripOfADeviceWithAGripper) {
   install(NEARFIT_STANDINS "/whole");
   const std::string demo = NEARFIT_SOURCE_DIR "/resources/demo/piston.nearfit";
-  const fs::path file = folder_.path() / "felt.csv";
   const std::optional<double> resting = test::StandinDevice::kRestingGrip;
   for (const auto& [model, grip] : {std::pair{"104", resting}, std::pair{"34", std::optional<double>()}}) {
+    const fs::path file = folder_.path() / (std::string(model) + ".csv");
     const ScopedVariable chosen("NEARFIT_STANDIN_MODEL", model);
     const test::ProcessResult result =
         run({"place", demo, "--part", "piston head", "--device", "forcedimension:1", "--seconds", "0.5",
