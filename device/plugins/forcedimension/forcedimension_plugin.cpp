@@ -263,7 +263,7 @@ class DhdDevice final : public NearfitDevice {
     double angle = 0.0;
     if (!hasGripper_ || api_.getGripperAngle == nullptr || api_.getGripperAngle(&angle, id_) < 0) return;
     if (!std::isfinite(angle)) return;
-    // Its sign depends on the hand that the device is built for, as open drivers have it.
+    // The documentation does not say which sign an open gripper has, and it may depend on the hand that the device is for.
     pose.grip = std::abs(angle);
     pose.flags |= NEARFIT_DEVICE_HAS_GRIP;
   }
