@@ -13,6 +13,9 @@ namespace {
 
 /// Property of a table and its header.
 constexpr const char* kColumnGap = "columnGap";
+/// More room on either side of each text: numbers end at the right of their column, where the texts of the next begin
+/// [pixels].
+constexpr int kColumnRoom = 5;
 
 /// Gets only those keys of the window that nothing in it has handled.
 class EscapeOfRows : public QObject {
@@ -35,6 +38,8 @@ class EscapeOfRows : public QObject {
 }  // namespace
 
 void setUpRowTable(QTableView& table) {
+  for (QWidget* each : {static_cast<QWidget*>(&table), static_cast<QWidget*>(table.horizontalHeader())})
+    each->setProperty(kColumnGap, forFont(table, kColumnRoom));
   table.setSortingEnabled(true);
   table.setSelectionBehavior(QAbstractItemView::SelectRows);
   table.setSelectionMode(QAbstractItemView::SingleSelection);
@@ -50,11 +55,6 @@ void clearRowsByEscape(QTableView& table, QWidget& window) {
   auto* escape = new EscapeOfRows(table);
   table.installEventFilter(escape);
   window.installEventFilter(escape);
-}
-
-void setColumnGap(QTableView& table, int pixels) {
-  for (QWidget* each : {static_cast<QWidget*>(&table), static_cast<QWidget*>(table.horizontalHeader())})
-    each->setProperty(kColumnGap, pixels);
 }
 
 int columnGapOf(const QWidget* widget) {

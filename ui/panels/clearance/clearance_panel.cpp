@@ -35,8 +35,6 @@ const QString kThresholdKey = QStringLiteral("clearance/thresholdMillimetres");
 constexpr double kMillimetre = 1e-3;
 constexpr double kUsualThreshold = 1e-3, kThresholdStep = 1e-4, kMaxThreshold = 1e3;  ///< [m]
 constexpr int kThresholdDecimals = 4;
-/// Numbers end at the right of their column, where the verdicts begin [pixels].
-constexpr int kColumnRoom = 5;
 
 /// Returns the threshold from the settings [m]; the usual one if somebody edited it to nonsense.
 double keptThreshold() {
@@ -133,7 +131,6 @@ void ClearancePanel::setUpTable() {
   table_->setAccessibleName(tr("Clearances"));
   table_->setModel(sorted_);
   setUpRowTable(*table_);
-  setColumnGap(*table_, forFont(*table_, kColumnRoom));
   table_->sortByColumn(ClearanceModel::Distance, Qt::AscendingOrder);
   // The panel scrolls where there is no room for the header and two rows.
   table_->setMinimumSize(forFont(*table_, 360), forFont(*table_, 78));
