@@ -31,8 +31,9 @@ struct HandleInput {
   /// In this tick the handle returns to the part's pose and leads on from there. Only for devices that render
   /// no force, since the force ends at once.
   bool returnsToPart = false;
-  std::uint64_t buttons = 0;   ///< Buttons that are down; bit 0 is the first.
-  std::optional<double> grip;  ///< Opening angle of its gripper, 0 if closed [rad]; only shown and recorded.
+  std::uint64_t buttons = 0;  ///< Buttons that are down; bit 0 is the first.
+  std::optional<double>
+      grip{};  ///< Opening angle of its gripper, 0 if closed [rad]; only shown and recorded.
 };
 
 }  // namespace nearfit

@@ -33,8 +33,8 @@ struct MotionRow {
   std::uint32_t constraints = 0, contacts = 0;                       ///< In the proxy's last step.
   std::uint32_t overlapping = 0;                                     ///< Parts that the moving part overlaps.
   double wrenchTime = 0.0;                                           ///< Time until the wrench was known [s].
-  bool isBehind = false;       ///< The tick's work ended before the proxy's way.
-  std::optional<double> grip;  ///< Opening angle of the device's gripper [rad]; none if it has no gripper.
+  bool isBehind = false;         ///< The tick's work ended before the proxy's way.
+  std::optional<double> grip{};  ///< Opening angle of the device's gripper [rad]; none if it has no gripper.
   /// As in the snapshot; not in the recording.
   std::uint32_t areas = 0;
   SpringShares springShares;
