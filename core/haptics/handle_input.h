@@ -32,8 +32,8 @@ struct HandleInput {
   /// no force, since the force ends at once.
   bool returnsToPart = false;
   std::uint64_t buttons = 0;  ///< Buttons that are down; bit 0 is the first.
-  std::optional<double>
-      grip{};  ///< Opening angle of its gripper, 0 if closed [rad]; only shown and recorded.
+  /// Opening angle of its gripper, 0 if closed [rad]; only shown and recorded.
+  std::optional<double> grip{};
 };
 
 }  // namespace nearfit

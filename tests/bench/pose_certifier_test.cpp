@@ -11,6 +11,7 @@
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::test::pose_certifier_test {
 namespace {
@@ -26,7 +27,7 @@ TEST(PoseCertifier, SaysOfSurfacesWhatRationalArithmeticSays) {
                         withFacesWithoutArea(starMesh(seed + 9, 0.3, 1, 0.4))};
     const PoseCertifier certifier(pair.scene, pair.part);
     int meetings = 0;
-    for (std::size_t i = 0; i < 24 / kPoseShare; ++i) {
+    for (std::size_t i = 0; i < 24 / kTrialShare; ++i) {
       const RigidTransform pose = poseNearContact(pair, 0.4, random);
       const bool expected = doSurfacesMeetExactly(pair.scene, pair.part, pose);
       // What does not touch may be inside.
@@ -87,7 +88,7 @@ TEST(PoseCertifier, SaysNoMoreThanTheDistanceByRationalArithmetic) {
   std::mt19937_64 random(7);
   const BodyPair pair{"stars", starMesh(2, 1.0, 2, 0.4), starMesh(11, 0.3, 1, 0.4)};
   const PoseCertifier certifier(pair.scene, pair.part);
-  for (std::size_t i = 0; i < 24 / kPoseShare; ++i) {
+  for (std::size_t i = 0; i < 24 / kTrialShare; ++i) {
     const RigidTransform pose = poseNearContact(pair, 0.4, random);
     const double exact = leastDistanceExactly(pair.scene, pair.part, pose);
     const double apart = certifier.surfacesApart(pose, 10.0);

@@ -6,13 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/stress/oracle_pairs.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::stress::oracle_campaign_test {
 namespace {
 
 TEST(OracleCampaign, FewThousandPosesOfTwentyPairsHaveTheExactSet) {
   const std::vector<test::BodyPair> pairs = oraclePairs();
-  const std::size_t each = 150 / test::kPoseShare;
+  const std::size_t each = 150 / test::kTrialShare;
   const OracleTally tally = runOracleCampaign(pairs, {.seed = 20, .first = 0, .count = each}, 1);
   for (const std::string& fault : tally.faults)
     ADD_FAILURE() << fault;

@@ -20,13 +20,6 @@ struct BodyPair {
   TriangleMesh scene, part;
 };
 
-/// Sanitized builds, many times slower, take this share of the poses: what they look for shows in few.
-#ifdef NEARFIT_SANITIZED
-constexpr std::size_t kPoseShare = 8;
-#else
-constexpr std::size_t kPoseShare = 1;
-#endif
-
 /// Counts of a comparison, so that a test can ask that it compared anything.
 struct LmdTally {
   std::size_t poses = 0;

@@ -21,6 +21,7 @@
 #include "core/mesh/mass_properties.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::flat_mesh_test {
 namespace {
@@ -239,9 +240,9 @@ TEST(FlatMesh, MergedMeshesHaveTheMinimaOfBruteForce) {
     const Solid& b = all[(i + 2) % all.size()];
     const test::BodyPair pair{all[i].name, mergeFlats(test::cutUnevenly(all[i].mesh, 200, 7), 0.0).mesh,
                               mergeFlats(test::cutUnevenly(b.mesh, 200, 8), 0.0).mesh};
-    minima += test::compareWithOracle(pair, 40 / test::kPoseShare, 0.1, 11).minima;
+    minima += test::compareWithOracle(pair, 40 / test::kTrialShare, 0.1, 11).minima;
   }
-  EXPECT_GT(minima, 30 / test::kPoseShare);
+  EXPECT_GT(minima, 30 / test::kTrialShare);
 }
 
 TEST(FlatMesh, CurvedMeshesStayAsTheyAre) {

@@ -20,6 +20,7 @@
 #include "tests/support/part_geometries.h"
 #include "tests/support/point_oracle.h"
 #include "tests/support/random_values.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::clearance_map_test {
 namespace {
@@ -79,7 +80,7 @@ void expectAsBruteForce(const Scene& scene, const ClearanceMap& map, const Mappe
 TEST(ClearanceMap, RandomPartsHaveTheBruteForceDistances) {
   test::RandomValues random(21);
   std::size_t inside = 0, beyond = 0, within = 0;
-  for (std::uint64_t round = 0; round < 8 / test::kPoseShare; ++round) {
+  for (std::uint64_t round = 0; round < 8 / test::kTrialShare; ++round) {
     Scene scene;
     std::vector<PartId> ids;
     const auto place = [&](const char* name, TriangleMesh mesh, double reach) {

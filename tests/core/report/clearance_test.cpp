@@ -14,6 +14,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 #include "tests/support/random_values.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::clearance_test {
 namespace {
@@ -62,7 +63,7 @@ TEST(Clearance, DistancesPointsMinimaAndOverlapsAreThoseOfBruteForce) {
   constexpr double kCutoff = 0.4;
   test::RandomValues random(11);
   std::size_t meeting = 0, apart = 0;
-  for (unsigned round = 0; round < 24 / test::kPoseShare; ++round) {
+  for (unsigned round = 0; round < 24 / test::kTrialShare; ++round) {
     Scene scene;
     const auto place = [&](const char* name, std::uint64_t seed, double reach) {
       RigidTransform pose = random.pose().normalized();

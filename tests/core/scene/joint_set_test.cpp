@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "tests/support/allocation_hook.h"
 #include "tests/support/joint_sets.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::joint_set_test {
 namespace {
@@ -151,7 +152,7 @@ double leastEnergy(RandomValues& random, const std::function<double(const std::a
 
 TEST(JointSet, TheNearestPoseHasTheLeastEnergyOfAllOnTheJoint) {
   RandomValues random(7);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 60 / static_cast<int>(test::kTrialShare); ++i) {
     const RigidTransform start = random.pose();
     const MassMetric metric{glm::normalize(rotationOf(random.vector(2.0))), {0.04, 0.07, 0.1}, 0.2};
     const glm::dvec3 centre = random.vector(0.05);

@@ -14,6 +14,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/proxy_walk.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::proxy_joints_test {
 namespace {
@@ -258,7 +259,7 @@ TEST(ProxyJoints, RandomHandsOnRandomJointsNeverMeetJaggedBodies) {
   RandomValues random(29);
   std::vector<RigidTransform> poses, inB;
   std::size_t touched = 0;
-  const std::size_t ticks = 400 / test::kPoseShare;
+  const std::size_t ticks = 400 / test::kTrialShare;
   for (int trial = 0; trial < 12; ++trial) {
     ProxyWalk walk({{a, {}}, {b, worldFromB}}, part, start, {kMargin, trial % 3 == 2 ? 0.4 : 0.0});
     std::vector<JointSet::Placed> placed;
@@ -297,7 +298,7 @@ TEST(ProxyJoints, RandomHandsOnAJointThatIsOffNeverMeetJaggedBodies) {
                                     random.vector(0.1), random.vector(1.0));
     walk.setJoints(jointSetOf({joint}, walk.pose()));
     RigidTransform hand;
-    for (std::size_t i = 0; i < 200 / test::kPoseShare; ++i) {
+    for (std::size_t i = 0; i < 200 / test::kTrialShare; ++i) {
       if (i % 50 == 0) hand = {rotationOf(random.vector(2.0)), random.vector(0.8)};
       walk.lead(hand);
       poses.push_back(walk.pose());

@@ -15,6 +15,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/proxy_walk.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::proxy_test {
 namespace {
@@ -341,7 +342,7 @@ TEST(Proxy, NeverMeetsJaggedBodiesUnderAHandThatJumpsShakesAndSpins) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   RigidTransform hand = walk.pose();
   std::vector<RigidTransform> poses, inB;
-  const std::size_t ticks = 6000 / test::kPoseShare;
+  const std::size_t ticks = 6000 / test::kTrialShare;
   std::size_t touched = 0, moved = 0;
   for (std::size_t i = 0; i < ticks; ++i) {
     if (i % 200 == 0) {

@@ -14,6 +14,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 #include "tests/support/tick_observation.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::scene_tracker_test {
 namespace {
@@ -82,7 +83,7 @@ TEST(SceneTracker, NoMinimumOfAnyBodyIsMissedAlongAPathAndItsTeleports) {
   tracker.setScene(scene);
   TrackedScene tracked;
   std::size_t late = 0, minima = 0, refreshes = 0, bodies = 0;
-  constexpr int kTicks = 600 / static_cast<int>(test::kPoseShare);
+  constexpr int kTicks = 600 / static_cast<int>(test::kTrialShare);
   for (int tick = 0; tick < kTicks; ++tick) {
     const auto jumps = tick / 150;
     const double t = 0.004 * tick + static_cast<double>(jumps);

@@ -16,6 +16,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 #include "tests/support/random_values.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::scene_check_test {
 namespace {
@@ -253,7 +254,7 @@ TEST(SceneCheck, JaggedPartsHaveTheVerdictsOfExactArithmetic) {
   constexpr double kThreshold = 0.25;
   test::RandomValues random(8);
   std::size_t found = 0, clear = 0;
-  for (unsigned round = 0; round < 8 / test::kPoseShare + 1; ++round) {
+  for (unsigned round = 0; round < 8 / test::kTrialShare + 1; ++round) {
     Scene scene;
     for (unsigned i = 0; i < 6; ++i) {
       RigidTransform pose = random.pose().normalized();

@@ -14,6 +14,7 @@
 #include "tests/support/limited_process.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::tree_cache_damage_test {
 namespace {
@@ -125,7 +126,7 @@ TEST_F(TreeCacheDamage, NoFlippedBitIsOverlooked) {
       file.seekp(static_cast<std::streamoff>(at)).put(byte).flush();
     };
     for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
-      for (int k = 0; k < 500 && borders[i] < borders[i + 1]; ++k) {
+      for (int k = 0; k < 500 / static_cast<int>(test::kTrialShare) && borders[i] < borders[i + 1]; ++k) {
         const std::size_t at = borders[i] + random() % (borders[i + 1] - borders[i]);
         put(at, static_cast<char>(image_->bytes[at] ^ static_cast<char>(1U << random() % 8)));
         if (taken() != (at < treeBegin ? Taken::Nothing : Taken::Mesh)) return false;

@@ -10,6 +10,7 @@
 
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::idle_features_test {
 namespace {
@@ -95,7 +96,7 @@ TEST(IdleFeatures, ChangeNoAnswer) {
     const test::FullHierarchy fullScene(pair.scene), fullPart(pair.part);
     EXPECT_GT(fullScene.tree().keptFeatures().total(), scene.keptFeatures().total()) << pair.name;
     std::size_t minima = 0;
-    for (std::size_t i = 0; i < 200 / test::kPoseShare; ++i) {
+    for (std::size_t i = 0; i < 200 / test::kTrialShare; ++i) {
       const RigidTransform pose = test::poseNearContact(pair, 0.2, random);
       const std::vector<Lmd> expected = test::allLmds(scene, part, pose, 0.2);
       const LmdResult result = test::findLmds(fullScene, fullPart, pose, 0.2, scratch, out);
@@ -103,7 +104,7 @@ TEST(IdleFeatures, ChangeNoAnswer) {
       expectSame(std::span<const Lmd>(out).first(result.count), expected);
       minima += expected.size();
     }
-    EXPECT_GT(minima, 20U / test::kPoseShare) << pair.name;
+    EXPECT_GT(minima, 20U / test::kTrialShare) << pair.name;
   }
 }
 

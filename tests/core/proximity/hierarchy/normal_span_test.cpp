@@ -18,6 +18,7 @@
 #include "core/proximity/query/triangle_distance.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::normal_span_test {
 namespace {
@@ -202,7 +203,7 @@ TEST(NormalSpan, JaggedBodiesHaveTheBruteForceSetOfTheRule) {
     const BodyPair pair{"stars", test::starMesh(seed, 1.0, 1, 0.4), test::starMesh(seed + 20, 1.0, 1, 0.4)};
     const NormalConeTree exactScene(pair.scene), exactPart(pair.part), scene = spanTree(pair.scene),
                                                                        part = spanTree(pair.part);
-    for (std::size_t i = 0; i < 24 / test::kPoseShare; ++i) {
+    for (std::size_t i = 0; i < 24 / test::kTrialShare; ++i) {
       const RigidTransform pose = test::poseNearContact(pair, 0.2, random);
       const auto span = test::allLmds(scene, part, pose, 0.5),
                  exact = test::allLmds(exactScene, exactPart, pose, 0.5);
@@ -219,8 +220,8 @@ TEST(NormalSpan, JaggedBodiesHaveTheBruteForceSetOfTheRule) {
     }
   }
   // There is something to compare.
-  EXPECT_GT(found, 30U / test::kPoseShare);
-  EXPECT_GT(added, 8U / test::kPoseShare);
+  EXPECT_GT(found, 30U / test::kTrialShare);
+  EXPECT_GT(added, 8U / test::kTrialShare);
 }
 
 TEST(NormalSpan, FlatAndStraightVerticesAreNoFeatures) {

@@ -16,6 +16,7 @@
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::interference_test {
 namespace {
@@ -65,7 +66,7 @@ TEST(Interference, RandomClosedMeshesMeetWhereBruteForceSaysSo) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const BodyPair pair{"stars", test::starMesh(seed, 1.0, 2, 0.4), test::starMesh(seed + 9, 0.3, 1, 0.4)};
     const Built scene(pair.scene), part(pair.part);
-    for (std::size_t i = 0; i < 24 / test::kPoseShare; ++i) {
+    for (std::size_t i = 0; i < 24 / test::kTrialShare; ++i) {
       const RigidTransform pose = test::poseNearContact(pair, 0.3, random);
       doMeet(scene, part, pose) ? ++meetings : ++others;
     }
@@ -253,7 +254,7 @@ TEST(Interference, SliversAndNeedlesMeetWhereBruteForceSaysSo) {
     const BodyPair pair{"slivers", test::withSlivers(test::icosphereMesh(1.0, 1), aspect, 0.1),
                         test::withNeedles(test::icosphereMesh(0.5, 0), aspect, 0.1)};
     const Built scene(pair.scene), part(pair.part);
-    for (std::size_t i = 0; i < 16 / test::kPoseShare; ++i)
+    for (std::size_t i = 0; i < 16 / test::kTrialShare; ++i)
       doMeet(scene, part, test::poseNearContact(pair, 0.1, random));
   }
 }

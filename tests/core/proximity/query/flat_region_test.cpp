@@ -16,6 +16,7 @@
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::flat_region_test {
 namespace {
@@ -350,7 +351,7 @@ TEST(FlatRegion, PosesOfParallelFacesHaveTheBruteForceSet) {
   std::mt19937_64 random(11);
   test::LmdTally tally;
   for (const test::BodyPair& pair : pairs) {
-    for (std::size_t i = 0; i < 160 / test::kPoseShare; ++i) {
+    for (std::size_t i = 0; i < 160 / test::kTrialShare; ++i) {
       constexpr std::array<double, 5> kTilts{0.0, 1e-12, 1e-9, 1e-8, 1e-7};
       const RigidTransform pose = test::poseWithParallelFaces(pair, 0.1, kTilts[i % 5], random);
       test::compareAtPose(pair, pose, 0.15, tally);

@@ -7,6 +7,7 @@
 #include "core/import/mesh_import.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::lmd_paper_pairs_test {
 namespace {
@@ -52,11 +53,11 @@ class PaperBodies {
 };
 
 void expectPaperPairAgrees(const BodyPair& pair, std::size_t poses) {
-  poses /= test::kPoseShare;
+  poses /= test::kTrialShare;
   const LmdTally tally = test::compareWithOracle(pair, poses, 0.05, 2003);
   EXPECT_EQ(tally.poses, poses);
   // The poses are near contact: there is something to compare, if little at the few poses of sanitized builds.
-  EXPECT_GE(tally.minima, test::kPoseShare == 1 ? poses / 8 : 1);
+  EXPECT_GE(tally.minima, test::kTrialShare == 1 ? poses / 8 : 1);
   EXPECT_LT(tally.marginal, tally.minima / 1000 + 5);
 }
 

@@ -12,6 +12,7 @@
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::lmd_query_test {
 namespace {
@@ -29,13 +30,13 @@ TEST(LmdQuery, RandomClosedMeshesHaveTheBruteForceSetAtEveryScale) {
           fmt::format("stars {} at scale {}", seed, scale),
           test::transformed(test::starMesh(seed, 1.0, 2, 0.4), scale),
           test::transformed(test::starMesh(seed + 100, 1.0, seed % 2 == 0 ? 1 : 2, 0.4), partScale)};
-      const LmdTally tally = test::compareWithOracle(pair, 40 / test::kPoseShare, 0.2, random());
+      const LmdTally tally = test::compareWithOracle(pair, 40 / test::kTrialShare, 0.2, random());
       sum.poses += tally.poses;
       sum.minima += tally.minima;
       sum.marginal += tally.marginal;
     }
   }
-  EXPECT_EQ(sum.poses, 1440 / test::kPoseShare);
+  EXPECT_EQ(sum.poses, 1440 / test::kTrialShare);
   EXPECT_GT(sum.minima, 3 * sum.poses);
   EXPECT_LT(sum.marginal, sum.minima / 1000 + 5);
 }
@@ -48,7 +49,7 @@ TEST(LmdQuery, MeshesTenThousandDiagonalsFromTheirOriginsHaveTheBruteForceSet) {
     const BodyPair pair{fmt::format("far {}", seed),
                         test::transformed(test::starMesh(seed, 1.0, 2, 0.3), 1.0, away),
                         test::transformed(test::starMesh(seed + 50, 1.0, 2, 0.3), 1.0, back)};
-    const LmdTally tally = test::compareWithOracle(pair, 40 / test::kPoseShare, 0.2, seed);
+    const LmdTally tally = test::compareWithOracle(pair, 40 / test::kTrialShare, 0.2, seed);
     sum.poses += tally.poses;
     sum.minima += tally.minima;
   }

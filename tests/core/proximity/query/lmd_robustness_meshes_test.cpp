@@ -10,6 +10,7 @@
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/trial_share.h"
 
 /// Meshes that are damaged or hard on arithmetic, against exact arithmetic: as the hierarchy would get them
 /// from a program, and as a user's file comes, through the builder.
@@ -47,7 +48,7 @@ ExactTally check(const std::string& name, const TriangleMesh& mesh, std::size_t 
           fmt::format("{}{}{}", name, isBuilt ? ", built" : "", isSelf ? ", with itself" : ""), scene,
           isSelf ? scene : probe};
       ExactComparison comparison(pair);
-      comparison.checkPoses(std::max<std::size_t>(poses / test::kPoseShare, 5), 0.1, seed);
+      comparison.checkPoses(std::max<std::size_t>(poses / test::kTrialShare, 5), 0.1, seed);
       sum.minima += comparison.tally().minima;
       sum.marginal += comparison.tally().marginal;
       sum.found += comparison.tally().found;

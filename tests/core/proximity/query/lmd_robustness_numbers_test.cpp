@@ -13,6 +13,7 @@
 #include "tests/exact/target_pose.h"
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/trial_share.h"
 
 /// Coordinates, sizes, distances and arguments at the limits of double precision.
 namespace nearfit::lmd_robustness_numbers_test {
@@ -22,7 +23,7 @@ using test::BodyPair;
 using test::ExactComparison;
 
 constexpr std::size_t share(std::size_t poses) {
-  return std::max<std::size_t>(poses / test::kPoseShare, 4);
+  return std::max<std::size_t>(poses / test::kTrialShare, 4);
 }
 
 RigidTransform at(const glm::dvec3& translation) {
@@ -38,7 +39,7 @@ TEST(LmdRobustness, MeshesAMillionDiagonalsFromTheirOriginsHaveTheExactSet) {
                         test::transformed(box, 1.0, back)};
     ExactComparison comparison(pair);
     comparison.checkPoses(share(60), 0.2, 71);
-    EXPECT_GT(comparison.tally().minima, 20U / test::kPoseShare);
+    EXPECT_GT(comparison.tally().minima, 20U / test::kTrialShare);
   }
 }
 
@@ -49,7 +50,7 @@ TEST(LmdRobustness, PosesAMillionDiagonalsFromTheOriginHaveTheExactSet) {
                       test::starMesh(3, 0.3, 1, 0.3)};
   ExactComparison comparison(pair);
   comparison.checkPoses(share(60), 0.2, 72);
-  EXPECT_GT(comparison.tally().minima, 20U / test::kPoseShare);
+  EXPECT_GT(comparison.tally().minima, 20U / test::kTrialShare);
 }
 
 TEST(LmdRobustness, MeshesFromAMicronToAThousandKilometresHaveTheExactSet) {
@@ -59,7 +60,7 @@ TEST(LmdRobustness, MeshesFromAMicronToAThousandKilometresHaveTheExactSet) {
                         test::transformed(test::boxMesh({0.3, 0.4, 0.5}), scale)};
     ExactComparison comparison(pair);
     comparison.checkPoses(share(30), 0.2, 73);
-    EXPECT_GT(comparison.tally().minima, 10U / test::kPoseShare);
+    EXPECT_GT(comparison.tally().minima, 10U / test::kTrialShare);
   }
 }
 
@@ -96,7 +97,7 @@ TEST(LmdRobustness, QuaternionsOffUnitByAMillionthHaveTheExactSetOfTheirRotation
     pose.rotation = pose.normalized().rotation * (i % 2 == 0 ? 1.000001 : 0.999999);
     comparison.checkPose(pose, 0.2);
   }
-  EXPECT_GT(comparison.tally().minima, 20U / test::kPoseShare);
+  EXPECT_GT(comparison.tally().minima, 20U / test::kTrialShare);
 }
 
 TEST(LmdRobustness, BodiesThatNearlyTouchHaveTheExactSet) {
@@ -107,7 +108,7 @@ TEST(LmdRobustness, BodiesThatNearlyTouchHaveTheExactSet) {
     for (std::size_t i = 0; i < share(60); ++i)
       comparison.checkPose(test::targetPose(pair, gap * comparison.size(), random), 0.05);
   }
-  EXPECT_GT(comparison.tally().minima, 50U / test::kPoseShare);
+  EXPECT_GT(comparison.tally().minima, 50U / test::kTrialShare);
 }
 
 TEST(LmdRobustness, ATinyPartAgainstAHugeOneHasTheExactSet) {
@@ -118,7 +119,7 @@ TEST(LmdRobustness, ATinyPartAgainstAHugeOneHasTheExactSet) {
     ExactComparison comparison(pair);
     comparison.checkPoses(share(40), 1e-6, 77);
     comparison.checkPoses(share(12), 0.1, 78);
-    EXPECT_GT(comparison.tally().minima, 10U / test::kPoseShare);
+    EXPECT_GT(comparison.tally().minima, 10U / test::kTrialShare);
   }
 }
 

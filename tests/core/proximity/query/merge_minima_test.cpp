@@ -15,6 +15,7 @@
 #include "tests/support/merge_oracle.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/random_values.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::merge_minima_test {
 namespace {
@@ -72,14 +73,14 @@ TEST(MergeMinima, ConformingContactHasTheSetsOfAllPairs) {
   test::RandomValues random(5);
   const NormalConeTree hole(squareHole(2)), peg(squarePeg(2));
   std::size_t entries = 0;
-  for (std::size_t i = 0; i < 24 / test::kPoseShare; ++i) {
+  for (std::size_t i = 0; i < 24 / test::kTrialShare; ++i) {
     RigidTransform pose = at({random.in(-0.005, 0.005), random.in(-0.005, 0.005), random.in(-1.0, 1.0)});
     // Straight, tilted within what counts as flat, turned so that it does not.
     const double tilt = random.flip(0.4) ? 0.0 : std::pow(10.0, random.in(-10.0, -3.0));
     pose.rotation = glm::angleAxis(tilt, glm::normalize(random.vector(1.0)));
     entries += compareWithAllPairs(hole, peg, pose, 0.05);
   }
-  EXPECT_GT(entries, 1000U / test::kPoseShare);
+  EXPECT_GT(entries, 1000U / test::kTrialShare);
 }
 
 TEST(MergeMinima, PosesOfParallelFacesHaveTheSetsOfAllPairs) {
@@ -96,13 +97,13 @@ TEST(MergeMinima, PosesOfParallelFacesHaveTheSetsOfAllPairs) {
   std::size_t entries = 0;
   for (const test::BodyPair& pair : pairs) {
     const NormalConeTree scene(pair.scene), part(pair.part);
-    for (std::size_t i = 0; i < 40 / test::kPoseShare; ++i) {
+    for (std::size_t i = 0; i < 40 / test::kTrialShare; ++i) {
       const double tilt = i % 2 == 0 ? 0.0 : std::pow(10.0, -static_cast<double>(i % 7) - 6.0);
       const RigidTransform pose = test::poseWithParallelFaces(pair, 0.1, tilt, random);
       entries += compareWithAllPairs(scene, part, pose, 0.15);
     }
   }
-  EXPECT_GT(entries, 1000U / test::kPoseShare);
+  EXPECT_GT(entries, 1000U / test::kTrialShare);
 }
 
 TEST(MergeMinima, JaggedBodiesHaveTheSetsOfAllPairs) {
@@ -138,7 +139,7 @@ TEST(MergeMinima, BoxesOnFinelyCutPlatesHaveTheSetsOfAllPairs) {
   std::size_t entries = 0;
   for (const TriangleMesh& plate : plates) {
     const NormalConeTree scene(plate);
-    for (std::size_t i = 0; i < 8 / test::kPoseShare; ++i) {
+    for (std::size_t i = 0; i < 8 / test::kTrialShare; ++i) {
       // Askew, square to the triangles' sides, tilted a little.
       const double turn = i % 4 == 0 ? 0.0 : random.in(0.0, std::numbers::pi);
       const double tilt = i % 2 == 0 ? 0.0 : std::pow(10.0, random.in(-10.0, -5.0));
@@ -148,7 +149,7 @@ TEST(MergeMinima, BoxesOnFinelyCutPlatesHaveTheSetsOfAllPairs) {
       entries += compareWithAllPairs(scene, box, pose, 0.05);
     }
   }
-  EXPECT_GT(entries, 2000U / test::kPoseShare);
+  EXPECT_GT(entries, 2000U / test::kTrialShare);
 }
 
 TEST(MergeMinima, OrderOfEntriesChangesNothing) {

@@ -15,6 +15,7 @@
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/trial_share.h"
 #include "tests/support/triangle_tests.h"
 
 namespace nearfit::surface_contacts_test {
@@ -108,7 +109,7 @@ void compare(const BodyPair& pair, std::size_t poses, double within, bool areClo
   std::mt19937_64 random(seed);
   const UnsidedSurface scene = surfaceOf(pair.scene), part = surfaceOf(pair.part);
   std::size_t compared = 0;
-  for (std::size_t i = 0; i < poses / test::kPoseShare; ++i) {
+  for (std::size_t i = 0; i < poses / test::kTrialShare; ++i) {
     const RigidTransform pose = test::poseNearContact(pair, within, random);
     const std::vector<SurfaceContact> contacts = contactsAt(scene, part, pose, within);
     const double least = test::leastDistanceExactly(pair.scene, pair.part, pose);
@@ -130,7 +131,7 @@ void compare(const BodyPair& pair, std::size_t poses, double within, bool areClo
     }
   }
   // At the few poses of sanitized builds the bodies may all pass through each other.
-  if (test::kPoseShare == 1) {
+  if (test::kTrialShare == 1) {
     EXPECT_GT(compared, poses / 8);
   }
 }
@@ -199,7 +200,7 @@ void compareHeld(const BodyPair& pair, double within, double slack, std::uint64_
   LmdScratch scratch;
   std::vector<TrianglePair> pairs(1U << 18);
   std::size_t compared = 0, provedWays = 0;
-  for (std::size_t i = 0; i < std::max<std::size_t>(4, 8 / test::kPoseShare); ++i) {
+  for (std::size_t i = 0; i < std::max<std::size_t>(2, 8 / test::kTrialShare); ++i) {
     const RigidTransform start = test::poseNearContact(pair, within, random);
     const NearbyTriangles nearby =
         findNearbyTriangles(scene, part, start, within + slack, scratch, pairs, kAnyWork);

@@ -14,6 +14,7 @@
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::surface_distance_test {
 namespace {
@@ -111,7 +112,7 @@ void compareWithBruteForce(const BodyPair& pair, std::size_t poses, double reach
   std::mt19937_64 random(seed);
   const NormalConeTree scene(pair.scene), part(pair.part);
   const double size = scene.size() + part.size();
-  for (std::size_t i = 0; i < poses / test::kPoseShare; ++i) {
+  for (std::size_t i = 0; i < poses / test::kTrialShare; ++i) {
     const RigidTransform pose = test::poseNearContact(pair, reach, random);
     const double expected = test::leastDistanceExactly(pair.scene, pair.part, pose);
     const SurfaceDistance found = leastAt(scene, part, pose);

@@ -13,6 +13,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::lmd_tracker_test {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 using test::BodyPair;
 
 constexpr double kCutoff = 0.15;
-constexpr std::size_t kTicks = 400;
+constexpr std::size_t kTicks = test::kTrialShare == 1 ? 400 : 100;
 
 void expectSame(const std::vector<Lmd>& a, const std::vector<Lmd>& b, std::size_t tick) {
   ASSERT_EQ(a.size(), b.size()) << tick;
@@ -175,7 +176,7 @@ TEST(FindNearestLmds, KeepsWhatIsNearestWhenItMayNotDoAllTheWork) {
   std::vector<Lmd> out(4096);
   std::mt19937_64 random(67);
   std::size_t truncated = 0, certain = 0;
-  for (std::size_t i = 0; i < 100 / test::kPoseShare; ++i) {
+  for (std::size_t i = 0; i < 100 / test::kTrialShare; ++i) {
     const RigidTransform pose = test::poseNearContact(pair, kCutoff, random);
     const std::vector<Lmd> all = test::allLmds(scene, part, pose, kCutoff);
     for (const std::uint64_t work : {0U, 10U, 100U, 400U, 1000U, 100000U}) {
