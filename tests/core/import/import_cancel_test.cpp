@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -8,19 +9,26 @@
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::import_cancel_test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// A million triangles; sanitized builds take a share of them.
+TriangleMesh largeMesh() {
+  return test::uvSphereMesh(0.05, static_cast<std::uint32_t>(1000 / test::kTrialShare), 501);
+}
+
 /// What a cancel button goes through: how often work asks whether to go on, and for how long it did not.
 struct Asked {
-  int count = 0;
+  std::size_t count = 0;
   double longest = 0.0;  ///< [s]; told, not judged: the machine may have been busy.
   Clock::time_point last = Clock::now();
 
-  ProgressCallback callback(int stopAt = -1) {
+  /// @param stopAt  Says stop when it is asked for this time; 0: never.
+  ProgressCallback callback(std::size_t stopAt = 0) {
     return [this, stopAt](double) {
       const auto now = Clock::now();
       longest = std::max(longest, std::chrono::duration<double>(now - last).count());
@@ -32,10 +40,9 @@ struct Asked {
 
 class ImportCancel : public testing::TestWithParam<const char*> {
  protected:
-  /// A million triangles.
   static const TriangleMesh& mesh() {
-    static const TriangleMesh million = test::uvSphereMesh(0.05, 1000, 501);
-    return million;
+    static const TriangleMesh large = largeMesh();
+    return large;
   }
   static std::string bytesOf(const std::string& format) {
     if (format == "stl") return test::stlBinary(mesh());
@@ -47,18 +54,19 @@ class ImportCancel : public testing::TestWithParam<const char*> {
   test::TemporaryFolder folder_;
 };
 
-TEST_P(ImportCancel, AMillionTrianglesAskOftenAndStopWhenTold) {
+TEST_P(ImportCancel, ManyTrianglesAskOftenAndStopWhenTold) {
   const std::string format = GetParam();
-  const auto file = folder_.write("million." + format, bytesOf(format));
+  const auto file = folder_.write("large." + format, bytesOf(format));
   Asked whole;
   const ImportedMesh imported = importMesh(file, {}, whole.callback());
-  EXPECT_GT(imported.mesh.triangles().size(), 990'000U);
-  EXPECT_GE(whole.count, 20);
-  RecordProperty("asked", whole.count);
-  std::printf("%s: asked %d times, longest pause %.3f s\n", format.c_str(), whole.count, whole.longest);
+  EXPECT_GT(imported.mesh.triangles().size(), 990'000U / test::kTrialShare);
+  EXPECT_GE(whole.count, 20U / test::kTrialShare);
+  RecordProperty("asked", std::to_string(whole.count));
+  std::printf("%s: asked %zu times, longest pause %.3f s\n", format.c_str(), whole.count, whole.longest);
   for (const double share : {0.01, 0.5, 0.99}) {
     Asked stopped;
-    const int stopAt = std::max(1, static_cast<int>(share * whole.count));
+    const auto stopAt =
+        std::max<std::size_t>(1, static_cast<std::size_t>(share * static_cast<double>(whole.count)));
     EXPECT_THROW(importMesh(file, {}, stopped.callback(stopAt)), Cancelled);
     EXPECT_EQ(stopped.count, stopAt) << "it went on after it was told to stop";
   }
@@ -66,16 +74,16 @@ TEST_P(ImportCancel, AMillionTrianglesAskOftenAndStopWhenTold) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, ImportCancel, testing::Values("stl", "obj", "ply", "off"));
 
-TEST(HierarchyCancel, AMillionTrianglesAskOftenAndStopWhenTold) {
-  const TriangleMesh mesh = test::uvSphereMesh(0.05, 1000, 501);
+TEST(HierarchyCancel, ManyTrianglesAskOftenAndStopWhenTold) {
+  const TriangleMesh mesh = largeMesh();
   HierarchyOnDemand hierarchy;
   Asked stopped;
-  constexpr int kStopAt = 40;
+  constexpr std::size_t kStopAt = 40 / test::kTrialShare;
   EXPECT_THROW(hierarchy.get(mesh, stopped.callback(kStopAt)), Cancelled);
   Asked whole;
   hierarchy.get(mesh, whole.callback());
-  EXPECT_GE(whole.count, 100);
-  std::printf("hierarchy: asked %d times, longest pause %.3f s\n", whole.count, whole.longest);
+  EXPECT_GE(whole.count, 100U / test::kTrialShare);
+  std::printf("hierarchy: asked %zu times, longest pause %.3f s\n", whole.count, whole.longest);
 }
 
 }  // namespace
