@@ -3,7 +3,6 @@
 #include <QAction>
 #include <QComboBox>
 #include <QHBoxLayout>
-#include <QHash>
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
@@ -11,7 +10,6 @@
 #include <QVBoxLayout>
 
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "ui/model/hand_lead.h"
 #include "ui/model/min_distance.h"
@@ -35,8 +33,6 @@ class FeelPanel::Readouts : public QWidget {
   /// Adds a text below the numbers, in a colour of the light theme, and returns its label. The text keeps its
   /// line while empty, so that nothing jumps.
   QLabel* addNote(const char* objectName, const QColor& colour);
-  /// Shows or hides a number and its name.
-  void showNumber(QLabel* number, bool isShown);
   void setHeading(const QString& heading) { heading_->setText(heading); }
   /// Text in place of a missing number.
   static QString nothing() { return QStringLiteral("–"); }
@@ -44,7 +40,6 @@ class FeelPanel::Readouts : public QWidget {
  private:
   QVBoxLayout* layout_;
   QLabel* heading_;
-  QHash<QLabel*, QLabel*> names_;  ///< By number.
 };
 
 FeelPanel::Readouts::Readouts(const QString& heading, QWidget* parent)
@@ -70,13 +65,7 @@ QLabel* FeelPanel::Readouts::add(const QString& name, const char* objectName, co
   row->addWidget(label);
   row->addWidget(value, 1);
   layout_->addLayout(row);
-  names_.insert(value, label);
   return value;
-}
-
-void FeelPanel::Readouts::showNumber(QLabel* number, bool isShown) {
-  number->setVisible(isShown);
-  names_.value(number)->setVisible(isShown);
 }
 
 QLabel* FeelPanel::Readouts::addNote(const char* objectName, const QColor& colour) {
@@ -168,9 +157,6 @@ void FeelPanel::setUpReadouts() {
                          tr("Mean deviation of the time between two reports from its average"));
   lost_ =
       device_->add(tr("Lost"), "reportsLost", tr("Reports lost or damaged since the part was taken in hand"));
-  grip_ = device_->add(tr("Grip"), "grip",
-                       tr("Opening angle of the device's gripper; it is recorded, and not felt"));
-  device_->showNumber(grip_, false);
   felt_->setObjectName(QStringLiteral("feltNumbers"));
   force_ = felt_->add(tr("Force"), "force");
   torque_ = felt_->add(tr("Torque"), "torque");
@@ -289,8 +275,6 @@ void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) 
   clamped_->setText(snapshot.isClamped ? limitText(snapshot) : QString());
   notice_->showSnapshot(snapshot, scene);
   workspace_->showClutched(snapshot.isClutched);
-  device_->showNumber(grip_, snapshot.grip.has_value());
-  if (snapshot.grip) grip_->setText(formatFixed(glm::degrees(*snapshot.grip), 1) + QStringLiteral("°"));
 }
 
 QString FeelPanel::limitText(const ServoSnapshot& snapshot) const {
