@@ -38,8 +38,6 @@ class EscapeOfRows : public QObject {
 }  // namespace
 
 void setUpRowTable(QTableView& table) {
-  for (QWidget* each : {static_cast<QWidget*>(&table), static_cast<QWidget*>(table.horizontalHeader())})
-    each->setProperty(kColumnGap, forFont(table, kColumnRoom));
   table.setSortingEnabled(true);
   table.setSelectionBehavior(QAbstractItemView::SelectRows);
   table.setSelectionMode(QAbstractItemView::SingleSelection);
@@ -55,6 +53,11 @@ void clearRowsByEscape(QTableView& table, QWidget& window) {
   auto* escape = new EscapeOfRows(table);
   table.installEventFilter(escape);
   window.installEventFilter(escape);
+}
+
+void keepColumnsApart(QTableView& table) {
+  for (QWidget* each : {static_cast<QWidget*>(&table), static_cast<QWidget*>(table.horizontalHeader())})
+    each->setProperty(kColumnGap, forFont(table, kColumnRoom));
 }
 
 int columnGapOf(const QWidget* widget) {

@@ -8,7 +8,7 @@ namespace nearfit::ui {
 /// stand out; Fusion draws them a little darker than their surroundings, hardly visible on a dark ground.
 /// Combo boxes elide long text, which Fusion clips. Disabled items of lists have no second text behind their own, and
 /// checked buttons have the colour of checked tools. A toolbar's extension button is as wide as a tool; Fusion makes it a
-/// few pixels wide. Tables of rows have more room between their columns (setUpRowTable()).
+/// few pixels wide. Tables can have more room between their columns (keepColumnsApart()).
 class WindowStyle : public QProxyStyle {
  public:
   WindowStyle();

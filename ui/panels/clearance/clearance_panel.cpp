@@ -131,6 +131,7 @@ void ClearancePanel::setUpTable() {
   table_->setAccessibleName(tr("Clearances"));
   table_->setModel(sorted_);
   setUpRowTable(*table_);
+  keepColumnsApart(*table_);
   table_->sortByColumn(ClearanceModel::Distance, Qt::AscendingOrder);
   // The panel scrolls where there is no room for the header and two rows.
   table_->setMinimumSize(forFont(*table_, 360), forFont(*table_, 78));

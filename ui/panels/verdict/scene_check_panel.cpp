@@ -196,6 +196,7 @@ void SceneCheckPanel::setUpTable() {
   table_->setAccessibleName(tr("Findings of the scene check"));
   table_->setModel(sorted_);
   setUpRowTable(*table_);
+  keepColumnsApart(*table_);
   table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   table_->sortByColumn(PairFindingsModel::Verdict, Qt::DescendingOrder);
   table_->setMinimumSize(forFont(*table_, 360), forFont(*table_, 60));
