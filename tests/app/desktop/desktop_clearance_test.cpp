@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/row_highlight.h"
 #include "ui/model/clearance_model.h"
 #include "ui/model/parts_model.h"
 #include "ui/model/selection.h"
@@ -150,30 +151,8 @@ void DesktopClearanceTest::aRowShowsItsPairAndWhereItIsNearestAndSelectsNothing(
 void DesktopClearanceTest::thePairIsShownUntilTheNextSelectionOrEscape() {
   ClearanceFixture f;
   QTRY_COMPARE(f.table->model()->rowCount(), 2);
-  ui::Selection& selection = f.d.window().selection();
-  selection.set({f.d.partId("fixed")});
-  auto* label = f.d.widget<QLabel>("clearanceLabel");
-  const auto showPair = [&] {
-    f.clickRow(1);
-    return QTest::qWaitFor([label] { return label->isVisible(); });
-  };
-  QVERIFY(showPair());
-  selection.set({f.d.partId("beside")});
-  QVERIFY(!label->isVisible());
-  QVERIFY(!f.table->selectionModel()->hasSelection());
-  QVERIFY2(showPair(), "another click of the same row shows it again");
-  const std::vector<PartId> selected = selection.parts();
-  for (QWidget* focus : {static_cast<QWidget*>(&f.d.window().viewport()), static_cast<QWidget*>(f.table)}) {
-    QTest::keyClick(focus, Qt::Key_Escape);
-    QVERIFY(!label->isVisible());
-    QCOMPARE(selection.parts(), selected);
-    QVERIFY(showPair());
-  }
-  // The view shows no pair then.
-  const QImage with = f.d.picture();
-  QTest::keyClick(f.table, Qt::Key_Escape);
-  const QImage after = f.d.picture();
-  QVERIFY(differentPixels(after, with) > 100);
+  checkThatAPairIsShownUntilTheNextSelectionOrEscape(
+      f.d, {*f.table, *f.d.widget<QLabel>("clearanceLabel"), [&f] { f.clickRow(1); }}, "fixed", "beside");
 }
 
 void DesktopClearanceTest::touchingIsToldApartFromOverlapping() {

@@ -9,6 +9,7 @@
 #include "core/scene/scene_file.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/app/desktop/dialog_answers.h"
+#include "tests/app/desktop/row_highlight.h"
 #include "ui/model/pair_findings_model.h"
 #include "ui/panels/verdict/findings_filter.h"
 
@@ -168,29 +169,9 @@ void DesktopSceneCheckTest::aRowHighlightsItsPairAndMarksThePlace() {
 void DesktopSceneCheckTest::aPairIsShownUntilTheNextSelectionOrEscape() {
   SceneCheckFixture f;
   f.check();
-  ui::Selection& selection = f.d.window().selection();
-  selection.set({f.d.partId("fixed")});
   auto* label = f.d.window().viewport().findChild<QLabel*>(QStringLiteral("pairLabel"));
-  const auto showPair = [&] {
-    f.clickRow(0);
-    return QTest::qWaitFor([label] { return label->isVisible(); });
-  };
-  QVERIFY(showPair());
-  selection.set({f.d.partId("moving")});
-  QVERIFY(!label->isVisible());
-  QVERIFY(!f.table->selectionModel()->hasSelection());
-  QVERIFY2(showPair(), "another click of the same row shows it again");
-  const std::vector<PartId> selected = selection.parts();
-  for (QWidget* focus : {static_cast<QWidget*>(&f.d.window().viewport()), static_cast<QWidget*>(f.table)}) {
-    QTest::keyClick(focus, Qt::Key_Escape);
-    QVERIFY(!label->isVisible());
-    QVERIFY2(selection.parts() == selected, "the selection is the user's");
-    QVERIFY(showPair());
-  }
-  // The view shows no pair then.
-  const QImage with = f.d.picture();
-  QTest::keyClick(f.table, Qt::Key_Escape);
-  QVERIFY(differentPixels(f.d.picture(), with) > 100);
+  checkThatAPairIsShownUntilTheNextSelectionOrEscape(f.d, {*f.table, *label, [&f] { f.clickRow(0); }},
+                                                     "fixed", "moving");
 }
 
 void DesktopSceneCheckTest::returnGoesToThePlace() {
