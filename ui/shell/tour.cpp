@@ -111,13 +111,13 @@ void Tour::place() {
                                              : layout()->totalSizeHint().height());
   const int left = around.left(), right = whole.width() - around.right();
   const int top = around.top(), bottom = whole.height() - around.bottom();
-  QPoint corner(around.center().x() - width() / 2, around.center().y() - height() / 2);
-  if (std::max(left, right) < width() + 2 * kTourGap && std::max(top, bottom) < height() + 2 * kTourGap) {
-    corner = around.topLeft() + QPoint(kTourGap, kTourGap);
-  } else if (std::max(left, right) >= width() + 2 * kTourGap) {
+  QPoint corner = around.center() - QPoint(width() / 2, height() / 2);
+  if (std::max(left, right) >= width() + 2 * kTourGap) {
     corner.setX(right >= left ? around.right() + kTourGap : around.left() - kTourGap - width());
-  } else {
+  } else if (std::max(top, bottom) >= height() + 2 * kTourGap) {
     corner.setY(bottom >= top ? around.bottom() + kTourGap : around.top() - kTourGap - height());
+  } else {
+    corner = around.topLeft() + QPoint(kTourGap, kTourGap);
   }
   move(std::clamp(corner.x(), kTourGap, std::max(kTourGap, whole.width() - width() - kTourGap)),
        std::clamp(corner.y(), kTourGap, std::max(kTourGap, whole.height() - height() - kTourGap)));

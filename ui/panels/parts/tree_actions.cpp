@@ -17,18 +17,19 @@ namespace nearfit::ui {
 TreeActions::TreeActions(Session& session, Selection& selection, const SceneWork& work, Attempt attempt,
                          QObject* parent)
     : QObject(parent), session_(session), selection_(selection), work_(work), attempt_(std::move(attempt)) {
-  group_ = make("group", tr("&Group"), "folder", "Ctrl+G", &TreeActions::groupSelected);
-  setHelp(*group_, tr("Put the selected parts and groups into a new group"));
-  ungroup_ = make("ungroup", tr("Ungrou&p"), {}, "Ctrl+Shift+G", &TreeActions::ungroupSelected);
-  setHelp(*ungroup_, tr("Dissolve the selected groups; their contents stay"));
-  visible_ = make("toggleVisible", tr("&Hide"), "eye", "H", &TreeActions::toggleVisible);
-  lock_ = make("toggleLock", tr("Loc&k"), "lock", "Ctrl+L", &TreeActions::toggleLock);
-  setHelp(*visible_, tr("Hide or show the selected parts; hidden parts are not felt"));
-  setHelp(*lock_, tr("Lock or unlock the selected parts and groups"));
-  isolate_ = make("isolate", tr("&Isolate"), "isolate", "I", &TreeActions::isolate);
-  setHelp(*isolate_, tr("Show only the selected parts; hidden parts are not felt"));
-  endIsolation_ = make("endIsolation", tr("End i&solation"), {}, "Shift+I", &TreeActions::endIsolation);
-  setHelp(*endIsolation_, tr("Show the parts that were visible before"));
+  group_ = make("group", tr("&Group"), "folder", "Ctrl+G",
+                tr("Put the selected parts and groups into a new group"), &TreeActions::groupSelected);
+  ungroup_ = make("ungroup", tr("Ungrou&p"), {}, "Ctrl+Shift+G",
+                  tr("Dissolve the selected groups; their contents stay"), &TreeActions::ungroupSelected);
+  visible_ =
+      make("toggleVisible", tr("&Hide"), "eye", "H",
+           tr("Hide or show the selected parts; hidden parts are not felt"), &TreeActions::toggleVisible);
+  lock_ = make("toggleLock", tr("Loc&k"), "lock", "Ctrl+L",
+               tr("Lock or unlock the selected parts and groups"), &TreeActions::toggleLock);
+  isolate_ = make("isolate", tr("&Isolate"), "isolate", "I",
+                  tr("Show only the selected parts; hidden parts are not felt"), &TreeActions::isolate);
+  endIsolation_ = make("endIsolation", tr("End i&solation"), {}, "Shift+I",
+                       tr("Show the parts that were visible before"), &TreeActions::endIsolation);
   setUpTransparency();
   connect(&selection_, &Selection::changed, this, &TreeActions::update);
   connect(&work_, &SceneWork::busyChanged, this, &TreeActions::update);
@@ -39,8 +40,8 @@ TreeActions::TreeActions(Session& session, Selection& selection, const SceneWork
 TreeActions::~TreeActions() = default;
 
 QAction* TreeActions::make(const char* name, const QString& text, const QString& iconName,
-                           const QString& keys, void (TreeActions::*run)()) {
-  QAction* action = makeAction(this, name, text, iconName, QKeySequence(keys));
+                           const QString& keys, const QString& help, void (TreeActions::*run)()) {
+  QAction* action = makeAction(this, name, text, iconName, QKeySequence(keys), help);
   connect(action, &QAction::triggered, this, run);
   return action;
 }

@@ -47,7 +47,7 @@ class TreeActions : public QObject {
 
  private:
   QAction* make(const char* name, const QString& text, const QString& icon, const QString& keys,
-                void (TreeActions::*run)());
+                const QString& help, void (TreeActions::*run)());
   /// Enables the actions that are possible now.
   void update();
   void setUpTransparency();
