@@ -15,7 +15,6 @@
 #include "core/report/clearance_histogram.h"
 #include "tests/exact/exact_meeting.h"
 #include "tests/support/degenerate_meshes.h"
-#include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 #include "tests/support/point_oracle.h"

@@ -9,7 +9,6 @@
 
 #include "core/base/error.h"
 #include "tests/exact/exact_meeting.h"
-#include "tests/support/lmd_comparison.h"
 #include "tests/support/lmd_oracle.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"

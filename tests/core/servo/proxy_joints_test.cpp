@@ -11,7 +11,6 @@
 #include "tests/exact/pose_certifier.h"
 #include "tests/support/allocation_hook.h"
 #include "tests/support/joint_sets.h"
-#include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/proxy_walk.h"
 #include "tests/support/trial_share.h"

@@ -12,7 +12,6 @@
 
 #include "core/base/error.h"
 #include "tests/exact/exact_meeting.h"
-#include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 #include "tests/support/random_values.h"

@@ -76,7 +76,7 @@ void FeelPanelTest::aLimitIsTheDevicesOnlyIfThereIsOne() {
   QCOMPARE(clamped->text(), QStringLiteral("Limited to the device's maximum."));
 }
 
-/// What is below it moved down as it came, and up again as it went.
+/// The numbers below the note moved down when it came, and up again when it went.
 void FeelPanelTest::theNoteOnALimitShiftsNothing() {
   const test::TemporaryFolder folder;
   ui::PresetStore presets(folder.path() / "presets.json");
