@@ -32,7 +32,8 @@ inline void checkThatAPairIsShownUntilTheNextSelectionOrEscape(DesktopDriver& d,
   QVERIFY(!pairs.table.selectionModel()->hasSelection());
   QVERIFY2(showPair(), "another click of the same row shows it again");
   const std::vector<PartId> selected = selection.parts();
-  for (QWidget* focus : {static_cast<QWidget*>(&d.window().viewport()), static_cast<QWidget*>(&pairs.table)}) {
+  for (QWidget* focus :
+       {static_cast<QWidget*>(&d.window().viewport()), static_cast<QWidget*>(&pairs.table)}) {
     QTest::keyClick(focus, Qt::Key_Escape);
     QVERIFY(!pairs.label.isVisible());
     QVERIFY2(selection.parts() == selected, "the selection is the user's");
