@@ -80,14 +80,18 @@ std::string forceText(const Look& look) {
   return fmt::format("force {:+.3f} {:+.3f} {:+.3f} N", look.force.x, look.force.y, look.force.z);
 }
 
+std::string gripText(const Look& look) {
+  return look.handle.grip ? fmt::format("  grip {:.3f} rad", *look.handle.grip) : std::string();
+}
+
 std::string textOf(const Look& look) {
   const RigidTransform& pose = look.handle.pose;
   std::string text = fmt::format(
       "{:8.2f} s  {:+.4f} {:+.4f} {:+.4f} m  {:+.3f} {:+.3f} {:+.3f} {:+.3f}  {:6.1f} Hz  p50 {:.2f} p99 "
-      "{:.2f} ms  buttons {:b}  {}  {}",
+      "{:.2f} ms  buttons {:b}{}  {}  {}",
       look.time, pose.translation.x, pose.translation.y, pose.translation.z, pose.rotation.w, pose.rotation.x,
       pose.rotation.y, pose.rotation.z, look.rate, 1e3 * look.intervalP50, 1e3 * look.intervalP99,
-      look.handle.buttons, forceText(look), stateName(look.state));
+      look.handle.buttons, gripText(look), forceText(look), stateName(look.state));
   if (!look.note.empty()) text += ": " + look.note;
   return text;
 }
@@ -105,10 +109,12 @@ std::string lookJson(const Look& look) {
       {"rejected", look.counters.rejected},
       {"missing", look.counters.missing},
       {"buttons", look.handle.buttons},
+      {"grip", nullptr},
       {"forces", nameOf(look.forces)},
       {"force", nullptr},
       {"state", stateName(look.state)},
       {"note", look.note}};
+  if (look.handle.grip) json["grip"] = *look.handle.grip;
   if (look.forces == Forces::Out) json["force"] = {look.force.x, look.force.y, look.force.z};
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

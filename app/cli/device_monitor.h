@@ -40,7 +40,7 @@ struct MonitorOptions {
   bool isArming = false;       ///< Arms the device once it is ready: forces of MonitorDamping go out.
 };
 
-/// Shows a device's pose, rate, jitter, buttons and state, and the force sent to it: one line that is
+/// Shows a device's pose, rate, jitter, buttons, grip and state, and the force sent to it: one line that is
 /// rewritten on a terminal, else a line every half second. Forces are off unless `isArming`. Throws Error,
 /// also if the device is lost.
 void monitorDevice(HapticDevice& device, const MonitorOptions& options);

@@ -140,8 +140,9 @@ void addDevicesCommand(CLI::App& program) {
       command->add_flag("--udev-rules", options->printsRules, "Print the udev rules that give permission");
   CLI::Option* watched = command->add_flag("--watch", options->watches,
                                            "Report devices as they are plugged in and out, until Ctrl+C");
-  options->monitor = command->add_option("--monitor", options->monitored,
-                                         "Show pose, rate, jitter, buttons, force and state until Ctrl+C");
+  options->monitor =
+      command->add_option("--monitor", options->monitored,
+                          "Show pose, rate, jitter, buttons, grip, force and state until Ctrl+C");
   options->test = command->add_option("--test", options->tested, "Test a device, step by step");
   for (CLI::Option* option : {options->monitor, options->test})
     option->type_name("[DEVICE]")->expected(0, 1);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/math/rigid_transform.h"
 
@@ -31,6 +32,8 @@ struct HandleInput {
   /// no force, since the force ends at once.
   bool returnsToPart = false;
   std::uint64_t buttons = 0;  ///< Buttons that are down; bit 0 is the first.
+  /// Opening angle of its gripper, 0 if closed [rad]; only shown and recorded.
+  std::optional<double> grip{};
 };
 
 }  // namespace nearfit

@@ -24,7 +24,7 @@ constexpr double kLongest = 1e6;
 /// Max magnitude of forces, energies and times. Larger values are errors, and would overflow in plots.
 constexpr double kLargest = 1e12;
 
-enum class Kind : std::uint8_t { Time, Number, Distance, Duration, Count, Pose };
+enum class Kind : std::uint8_t { Time, Number, Distance, Duration, Count, Grip, Pose };
 
 struct Column {
   std::string_view name;
@@ -73,8 +73,11 @@ constexpr std::array kColumns = {Column{"t_s", Kind::Time, true},
                                  Column{"late_us", Kind::Duration, false},
                                  Column{"wrench_us", Kind::Duration, false},
                                  Column{"behind", Kind::Count, false},
+                                 Column{"grip", Kind::Grip, false},
                                  Column{"distance_bound", Kind::Count, false}};
 constexpr std::size_t kFirstHandle = 1, kFirstProxy = 8, kFirstForce = 15, kAfterWrench = 21;
+constexpr std::size_t kGrip = kAfterWrench + 19;
+static_assert(kColumns[kGrip].kind == Kind::Grip);
 
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
 using Places = std::array<std::size_t, kColumns.size()>;
@@ -104,6 +107,9 @@ bool isAllowed(Kind kind, double value) {
       return value >= 0.0 && value <= kLargest;
     case Kind::Count:
       return value >= 0.0 && value <= std::numeric_limits<std::uint32_t>::max() && value == std::floor(value);
+    case Kind::Grip:
+      // Of a device without a gripper it is no number.
+      return std::isnan(value) || std::abs(value) <= kLargest;
     case Kind::Pose:
       break;
   }
@@ -113,7 +119,8 @@ bool isAllowed(Kind kind, double value) {
 double numberIn(std::string_view text, std::size_t index, std::size_t at, const csv::Place& place) {
   const Column& column = kColumns[index];
   std::optional<double> number = csv::parseNumber(text);
-  if (column.kind != Kind::Distance) number = csv::finiteNumber(text, at, place, kRemedy);
+  if (column.kind != Kind::Distance && column.kind != Kind::Grip)
+    number = csv::finiteNumber(text, at, place, kRemedy);
   if (!number || !isAllowed(column.kind, *number))
     place.fail(fmt::format("column {}: \"{}\" is not a valid {}", at + 1, text.substr(0, 40), column.name),
                kRemedy);
@@ -124,6 +131,7 @@ Values valuesIn(std::string_view row, const Places& places, const csv::Place& pl
   const std::vector<std::string_view> texts = csv::columnsOf(row);
   Values values{};
   values[kAfterWrench + 1] = std::numeric_limits<double>::infinity();
+  values[kGrip] = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
     if (places[i] == kAbsent) continue;
     if (places[i] >= texts.size())
@@ -158,7 +166,8 @@ void takeRest(MotionRow& row, std::span<const double> v, const csv::Place& place
   row.lateness = kMicro * v[16];
   row.wrenchTime = kMicro * v[17];
   row.isBehind = v[18] != 0.0;
-  row.isDistanceBound = v[19] != 0.0;
+  if (const double grip = v[kGrip - kAfterWrench]; !std::isnan(grip)) row.grip = grip;
+  row.isDistanceBound = v[20] != 0.0;
 }
 
 MotionRow parseRow(std::string_view text, const Places& places, const csv::Place& place) {

@@ -1,6 +1,7 @@
 #include "core/servo/motion_recording.h"
 
 #include <iterator>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -40,6 +41,7 @@ MotionRow motionRow(const ServoSnapshot& s, double lateness) noexcept {
   row.overlapping = s.overlappingCount;
   row.wrenchTime = s.wrenchTime;
   row.isBehind = s.isBehind;
+  row.grip = s.grip;
   row.areas = s.areaCount;
   row.springShares = s.springShares;
   row.lateness = lateness;
@@ -53,7 +55,7 @@ std::string_view motionHeader() noexcept {
          "force_x,force_y,force_z,torque_x,torque_y,torque_z,"
          "lmds,distance,query_us,tick_us,late_bodies,"
          "energy,sub_steps,shortened,refused,constraints,contacts,released,proxy_us,clamped,fault,"
-         "truncated,late_us,wrench_us,behind,distance_bound";
+         "truncated,late_us,wrench_us,behind,grip,distance_bound";
 }
 
 std::string formatMotionRow(const MotionRow& row) {
@@ -64,11 +66,12 @@ std::string formatMotionRow(const MotionRow& row) {
   const glm::dvec3& t = row.wrench.torque;
   fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{},{:.3f},{:.3f},{}", f.x, f.y, f.z, t.x,
                  t.y, t.z, row.lmds, row.distance, row.queryTime * 1e6, row.tickTime * 1e6, row.lateBodies);
-  fmt::format_to(
-      std::back_inserter(line), ",{},{},{},{},{},{},{},{:.3f},{:d},{:d},{:d},{:.3f},{:.3f},{:d},{:d}",
-      row.energyToHand, row.subSteps, row.shortenedSteps, row.refusedSteps, row.constraints, row.contacts,
-      row.overlapping, row.proxyTime * 1e6, row.isClamped, static_cast<int>(row.fault), row.isTruncated,
-      row.lateness * 1e6, row.wrenchTime * 1e6, row.isBehind, row.isDistanceBound);
+  fmt::format_to(std::back_inserter(line),
+                 ",{},{},{},{},{},{},{},{:.3f},{:d},{:d},{:d},{:.3f},{:.3f},{:d},{},{:d}", row.energyToHand,
+                 row.subSteps, row.shortenedSteps, row.refusedSteps, row.constraints, row.contacts,
+                 row.overlapping, row.proxyTime * 1e6, row.isClamped, static_cast<int>(row.fault),
+                 row.isTruncated, row.lateness * 1e6, row.wrenchTime * 1e6, row.isBehind,
+                 row.grip.value_or(std::numeric_limits<double>::quiet_NaN()), row.isDistanceBound);
   return line;
 }
 

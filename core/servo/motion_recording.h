@@ -33,7 +33,8 @@ struct MotionRow {
   std::uint32_t constraints = 0, contacts = 0;                       ///< In the proxy's last step.
   std::uint32_t overlapping = 0;                                     ///< Parts that the moving part overlaps.
   double wrenchTime = 0.0;                                           ///< Time until the wrench was known [s].
-  bool isBehind = false;  ///< The tick's work ended before the proxy's way.
+  bool isBehind = false;         ///< The tick's work ended before the proxy's way.
+  std::optional<double> grip{};  ///< Opening angle of the device's gripper [rad]; none if it has no gripper.
   /// As in the snapshot; not in the recording.
   std::uint32_t areas = 0;
   SpringShares springShares;
@@ -49,14 +50,15 @@ using MotionQueue = SpscQueue<MotionRow, 16384>;
 
 /// Header line of a recording: t_s, handle_tx ... handle_qz, proxy_tx ... proxy_qz, force_x ... torque_z,
 /// lmds, distance, query_us, tick_us, late_bodies, energy, sub_steps, shortened, refused, constraints,
-/// contacts, released, proxy_us, clamped, fault, truncated, late_us, wrench_us, behind, distance_bound. Poses are
-/// tx ty tz qw qx qy qz.
+/// contacts, released, proxy_us, clamped, fault, truncated, late_us, wrench_us, behind, grip, distance_bound.
+/// Poses are tx ty tz qw qx qy qz.
 std::string_view motionHeader() noexcept;
 
 /// Formats a row in the columns of motionHeader(), without line end. Numbers have the fewest digits that read
 /// back to the same double, except durations in microseconds, which are rounded to nanoseconds. `distance` is
-/// `inf` if nothing is within the cutoff; `clamped`, `truncated` (the search may have missed minima within
-/// the cutoff), `behind` and `distance_bound` are 0 or 1; `fault` is the number of the ServoFault.
+/// `inf` if nothing is within the cutoff; `grip` is `nan` if the device has none; `clamped`, `truncated` (the
+/// search may have missed minima within the cutoff), `behind` and `distance_bound` are 0 or 1;
+/// `fault` is the number of the ServoFault.
 std::string formatMotionRow(const MotionRow& row);
 
 /// Writes a recording as CSV, row by row, to a temporary file beside the target: "felt.unfinished.csv" for

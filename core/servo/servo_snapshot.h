@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "core/haptics/haptic_settings.h"
 #include "core/haptics/spring_bound.h"
@@ -73,6 +74,7 @@ struct ServoSnapshot {
   bool isDistanceBound = false;  ///< `distance` is a lower bound: a missing minimum may be the nearest.
   bool isClamped = false;        ///< The wrench was limited to the device's max.
   bool isClutched = false;       ///< The hand repositions the device; the part stays.
+  std::optional<double> grip{};  ///< HandleInput::grip [rad].
   ServoFault fault = ServoFault::None;  ///< Latched: the wrench is zero until the servo is restarted.
   PartId moving{};                      ///< The moving part; of a group the part that leads.
 

@@ -104,6 +104,7 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
   snapshot.moving = scene.moving.id;
   snapshot.mode = settings.mode;
   snapshot.isClutched = input.isClutched;
+  snapshot.grip = input.grip;
   if (scene.moving.id != moving_) {
     hasPose_ = false;
     shownReach_.reset();

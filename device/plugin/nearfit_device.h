@@ -1,4 +1,4 @@
-/* Plug-in interface of Nearfit for haptic devices, version 2.
+/* Plug-in interface of Nearfit for haptic devices, version 3.
  *
  * It is for devices whose makers allow their use only through libraries of their own. A plug-in is a shared
  * library that exports nearfit_device_plugin(). resources/docs/plugins.md says where Nearfit looks for it.
@@ -19,7 +19,7 @@
 extern "C" {
 #endif
 
-#define NEARFIT_DEVICE_VERSION 2u
+#define NEARFIT_DEVICE_VERSION 3u
 
 /* Result of count() if the maker's driver is not installed or does not run; `error` then says what to install. */
 #define NEARFIT_DEVICE_NO_DRIVER (-2)
@@ -44,8 +44,9 @@ typedef struct NearfitDeviceDescription {
 
 /* Bits of NearfitDevicePose.flags. An armed device whose pose is no longer known is stopped. */
 enum {
-  NEARFIT_DEVICE_CALIBRATED = 1,   /* The pose is known. The device cannot be armed before. */
-  NEARFIT_DEVICE_DEAD_MAN_HELD = 2 /* The hand holds the dead-man switch. */
+  NEARFIT_DEVICE_CALIBRATED = 1,    /* The pose is known. The device cannot be armed before. */
+  NEARFIT_DEVICE_DEAD_MAN_HELD = 2, /* The hand holds the dead-man switch. */
+  NEARFIT_DEVICE_HAS_GRIP = 4       /* `grip` is measured. */
 };
 
 /* Values of NearfitDevicePose.fault. With any but NONE, Nearfit stops the device until the user resets it. */
@@ -70,6 +71,8 @@ typedef struct NearfitDevicePose {
   uint32_t buttons;   /* One bit per pressed button. Bit 0 is the clutch: while held, the part stays. */
   uint32_t flags;     /* NEARFIT_DEVICE_... bits. */
   uint32_t fault;     /* NEARFIT_FAULT_... */
+  /* Opening angle of its gripper, 0 if closed [rad]; ignored without NEARFIT_DEVICE_HAS_GRIP. Shown and recorded only. */
+  double grip;
 } NearfitDevicePose;
 
 /* An open device. Defined by the plug-in; Nearfit only passes the pointer. */

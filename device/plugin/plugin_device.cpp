@@ -34,6 +34,7 @@ bool isSound(const NearfitDevicePose& pose) noexcept {
     sum += std::abs(pose.position[i]) + std::abs(pose.velocity[i]);
   for (const double part : pose.rotation)
     lengthSquared += part * part;
+  if ((pose.flags & NEARFIT_DEVICE_HAS_GRIP) != 0) sum += std::abs(pose.grip);
   return std::isfinite(sum) && std::abs(std::sqrt(lengthSquared) - 1.0) <= kQuaternionSlack;
 }
 
@@ -191,6 +192,7 @@ class PluginDevice final : public HapticDevice {
     handle.isTorqueFelt = description_.force_axes != 3 || description_.sensed_axes == 3;
     handle.hasOwnFrame = true;
     handle.buttons = last_.buttons;
+    if ((last_.flags & NEARFIT_DEVICE_HAS_GRIP) != 0) handle.grip = last_.grip;
     handle.isArmed = supervisor_.check({handle.age, glm::length(vectorOf(last_.velocity)),
                                         (last_.flags & NEARFIT_DEVICE_DEAD_MAN_HELD) != 0}) ||
                      description_.force_axes == 0;

@@ -68,10 +68,6 @@ std::unique_ptr<HapticDevice> MakerBench::make(int index, const SafetyLimits& sa
   return makePluginDevice(plugin_, index, plugin_->devices().at(static_cast<std::size_t>(index)), safety);
 }
 
-void MakerBench::endService() {
-  service_->end();
-}
-
 MakerServo::MakerServo(HapticDevice& device)
     : thread_([this, &device] {
         while (!isStopping_) {

@@ -60,8 +60,8 @@ class MakerBench {
   const std::shared_ptr<const DevicePlugin>& plugin() const noexcept { return plugin_; }
   /// Creates the driver of a device that the plug-in lists now.
   std::unique_ptr<HapticDevice> make(int index = 0, const SafetyLimits& safety = patientSafety());
-  /// Only of Haply: ends the service.
-  void endService();
+  /// Only of Haply.
+  HaplyStandin& service() noexcept { return *service_; }
 
  private:
   TemporaryFolder folder_;

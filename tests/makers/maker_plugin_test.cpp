@@ -329,6 +329,28 @@ TEST(ForceDimensionDevice, APoseThatWasAskedForTooEarlyIsNoNewOne) {
   EXPECT_THAT(device->stateNote(), HasSubstr(faultReason(DeviceFault::Silent)));
 }
 
+TEST(ForceDimensionDevice, ItsGripIsHowFarItsGripperIsOpen) {
+  test::MakerBench bench(test::kMakerModels[4]);
+  const std::unique_ptr<HapticDevice> device = bench.make();
+  device->start({});
+  const test::MakerServo servo(*device);
+  for (const double grip : {0.0, 0.25, 0.5}) {
+    bench.device().grip = grip;
+    EXPECT_TRUE(eventually([&] { return servo.last().grip == grip; })) << grip;
+  }
+}
+
+TEST(ForceDimensionDevice, WithoutAGripperHasNoGrip) {
+  test::MakerBench bench(test::kMakerModels[3]);
+  const std::unique_ptr<HapticDevice> device = bench.make();
+  device->start({});
+  const test::MakerServo servo(*device);
+  const glm::dvec3 wanted{0.02, 0.0, 0.0};
+  bench.device().target.set({wanted.x, wanted.y, wanted.z});
+  ASSERT_TRUE(eventually([&] { return isNear(servo.last().pose.translation, wanted, 2.0 * kPlaceSlack); }));
+  EXPECT_FALSE(servo.last().grip);
+}
+
 TEST(OpenHapticsDevice, ThatIsNotScheduledDoesNotOpen) {
   test::MakerBench bench(test::kMakerModels[0]);
   const std::unique_ptr<HapticDevice> device = bench.make();
@@ -348,7 +370,7 @@ TEST(HaplyService, ThatEndsLosesItsDevices) {
   const std::unique_ptr<HapticDevice> device = bench.make();
   device->start({});
   test::MakerServo servo(*device);
-  bench.endService();
+  bench.service().end();
   EXPECT_TRUE(eventually([&] { return device->state() == DeviceState::Lost; }));
   EXPECT_THAT(device->stateNote(), HasSubstr("Haply Inverse Service"));
   try {

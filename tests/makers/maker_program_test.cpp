@@ -5,12 +5,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/servo/motion_reader.h"
 #include "device/interface/device_supervisor.h"
 #include "tests/makers/maker_bench.h"
 #include "tests/makers/standin_haply.h"
@@ -137,6 +139,25 @@ TEST_F(MakerProgram, EachDeviceLeadsAPart) {
         run({"place", demo, "--part", "piston head", "--device", device, "--arm", "--seconds", "0.5"});
     EXPECT_TRUE(result.exitCode == 0 || isLate(result.err)) << device << "\n" << result.out << result.err;
     EXPECT_THAT(result.out, HasSubstr("round trip")) << device;
+  }
+}
+
+TEST_F(MakerProgram, ARecordingHasTheGripOfADeviceWithAGripper) {
+  install(NEARFIT_STANDINS "/whole");
+  const std::string demo = NEARFIT_SOURCE_DIR "/resources/demo/piston.nearfit";
+  const std::optional<double> resting = test::StandinDevice::kRestingGrip;
+  for (const auto& [model, grip] : {std::pair{"104", resting}, std::pair{"34", std::optional<double>()}}) {
+    const fs::path file = folder_.path() / (std::string(model) + ".csv");
+    const ScopedVariable chosen("NEARFIT_STANDIN_MODEL", model);
+    const test::ProcessResult result =
+        run({"place", demo, "--part", "piston head", "--device", "forcedimension:1", "--seconds", "0.5",
+             "--record", file.string()});
+    EXPECT_TRUE(result.exitCode == 0 || isLate(result.err)) << model << "\n" << result.out << result.err;
+    EXPECT_EQ(readMotion(file).back().grip, grip) << model;
+    const test::ProcessResult shown =
+        run({"devices", "--monitor", "forcedimension:1", "--json", "--seconds", "0.6"});
+    const auto last = nlohmann::json::parse(shown.out.substr(0, shown.out.find('\n')));
+    EXPECT_EQ(last["grip"], grip ? nlohmann::json(*grip) : nlohmann::json()) << last;
   }
 }
 

@@ -46,6 +46,7 @@ class StandinDevice {
   std::atomic<int> status{0};            ///< What a maker's status has besides errors; see each stand-in.
   std::atomic<bool> isCalibrated{true};  ///< Its pose is known; its maker's call calibrates it.
   std::atomic<int> buttons{0};
+  std::atomic<double> grip{kRestingGrip};  ///< Opening of its gripper, if its model has one [rad].
 
   // Seen by tests.
   SharedTriple position, force, torque;  ///< [m]; as its motors were told last [N], [N m].
@@ -91,6 +92,7 @@ class StandinDevice {
   void restart() {
     target.set({});
     turn = 0.0;
+    grip = kRestingGrip;
     isPlugged = isCalibrated = true;
     isStalled = isOpen = false;
     error = status = buttons = 0;
@@ -102,6 +104,7 @@ class StandinDevice {
     net_ = 0.0;
   }
 
+  static constexpr double kRestingGrip = 0.375;  ///< [rad]
   /// A Touch: its apparent mass, and friction as its maker gives it.
   static constexpr double kMass = 0.045, kFriction = 0.3;  // [kg], [N]
 

@@ -152,6 +152,12 @@ int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
 unsigned int dhdGetButtonMask(char id) {
   return static_cast<unsigned int>(dhd().device(id).buttons);
 }
+// Of a device for the right hand.
+int dhdGetGripperAngleRad(double* angle, char id) {
+  if (!dhdHasGripper(id)) return -1;
+  *angle = -dhd().device(id).grip;
+  return 0;
+}
 int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz,
                                         double, char id) {
   if (dhd().trouble(id) < 0) return -1;

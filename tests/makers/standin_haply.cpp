@@ -1,6 +1,7 @@
 #include "tests/makers/standin_haply.h"
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <list>
@@ -10,6 +11,7 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/stream.hpp>
@@ -22,6 +24,7 @@ namespace {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 using Tcp = asio::ip::tcp;
+using Stream = beast::websocket::stream<Tcp::socket>;
 using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
@@ -32,10 +35,21 @@ Json vectorOf(const Triple& v) {
   return {{"x", v[0]}, {"y", v[1]}, {"z", v[2]}};
 }
 
+/// Returns a frame of text, as RFC 6455 has it, without the second half of the text.
+std::string halfFrame(const std::string& text) {
+  // The last frame of a text; no mask; the length follows in 64 bits.
+  std::string frame = "\x81\x7f";
+  for (int shift = 56; shift >= 0; shift -= 8)
+    frame += static_cast<char>((std::uint64_t{text.size()} >> shift) & 0xff);
+  return frame + text.substr(0, text.size() / 2);
+}
+
 }  // namespace
 
 struct HaplyStandin::Server {
   Standin standin;
+  std::atomic<HaplyHang> hangsAt{HaplyHang::Never};
+  std::atomic<int> hung{0}, hangs{0};
   asio::io_context context;
   Tcp::acceptor acceptor{context, Tcp::endpoint(asio::ip::address_v4::loopback(), 0)};
   const std::uint16_t port = acceptor.local_endpoint().port();
@@ -75,23 +89,55 @@ struct HaplyStandin::Server {
   }
   void serve(Tcp::socket socket) {
     const int descriptor = socket.native_handle();
-    beast::websocket::stream<Tcp::socket> stream(std::move(socket));
+    Stream stream(std::move(socket));
     boost::system::error_code error;
-    stream.accept(error);
+    if (hangsAt == HaplyHang::AtHandshake) error = hangOn(stream);
+    if (!error) stream.accept(error);
     stream.text(true);
-    if (!error) stream.write(asio::buffer(state(/*isWhole=*/true)), error);
+    if (!error) error = say(stream, state(/*isWhole=*/true));
     while (!error) {
       beast::flat_buffer buffer;
       stream.read(buffer, error);
       if (error) break;
-      const std::string answer = take(beast::buffers_to_string(buffer.data()));
-      stream.write(asio::buffer(answer), error);
+      error = say(stream, take(beast::buffers_to_string(buffer.data())));
     }
     // Before the number is another's.
     const std::lock_guard lock(mutex);
     sockets.remove(descriptor);
     for (StandinDevice& each : standin.devices)
       each.push({}, {});
+  }
+
+  /// Sends a message, or as much of it as it is to send. Returns why the connection is over.
+  boost::system::error_code say(Stream& stream, const std::string& text) {
+    boost::system::error_code error;
+    const HaplyHang where = hangsAt;
+    switch (where) {
+      case HaplyHang::Never:
+      case HaplyHang::AtHandshake:
+        stream.write(asio::buffer(text), error);
+        return error;
+      case HaplyHang::AtMessage:
+        break;
+      case HaplyHang::InFrame:
+        asio::write(stream.next_layer(), asio::buffer(halfFrame(text)), error);
+        break;
+      case HaplyHang::InMessage:
+        stream.write_some(/*fin=*/false, asio::buffer(text.substr(0, text.size() / 2)), error);
+        break;
+    }
+    return hangOn(stream);
+  }
+  /// Returns once the connection is closed, or the service ends.
+  boost::system::error_code hangOn(Stream& stream) {
+    ++hung;
+    ++hangs;
+    std::array<char, 256> unheard{};
+    boost::system::error_code error;
+    while (!error)
+      stream.next_layer().read_some(asio::buffer(unheard), error);
+    --hung;
+    return error;
   }
 
   std::string take(const std::string& text) {
@@ -161,6 +207,15 @@ std::uint16_t HaplyStandin::port() const noexcept {
 }
 Standin& HaplyStandin::devices() noexcept {
   return server_->standin;
+}
+void HaplyStandin::hang(HaplyHang where) noexcept {
+  server_->hangsAt = where;
+}
+int HaplyStandin::hung() const noexcept {
+  return server_->hung;
+}
+int HaplyStandin::hangs() const noexcept {
+  return server_->hangs;
 }
 void HaplyStandin::end() {
   server_->end();

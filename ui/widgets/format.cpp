@@ -96,6 +96,12 @@ QString formatMinima(std::uint32_t count, bool isTruncated) {
   return QString::number(count) + (isTruncated ? QStringLiteral("+") : QString());
 }
 
+QString explainMinima(bool isTruncated) {
+  return isTruncated
+             ? QCoreApplication::translate("format", "There may be more: the search stopped at its limit.")
+             : QString();
+}
+
 QString formatParts(std::size_t count) {
   return count == 1 ? QObject::tr("1 part") : QObject::tr("%1 parts").arg(count);
 }

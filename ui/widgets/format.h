@@ -29,6 +29,8 @@ QString formatExtent(const glm::dvec3& metres);
 QString formatDistance(double metres, bool isBound);
 /// Formats a number of minima, of which some may be missing: "12", "12+".
 QString formatMinima(std::uint32_t count, bool isTruncated);
+/// Returns what the "+" of formatMinima() means, for a tool tip; empty without one.
+QString explainMinima(bool isTruncated);
 /// Formats a number of parts: "1 part", "12 parts".
 QString formatParts(std::size_t count);
 /// Formats a force [N]: "3.42 N".

@@ -51,6 +51,8 @@ struct DhdApi {
   bool (*isInitialized)(char) = nullptr;
   int (*autoInit)(char) = nullptr;
   int (*stopRegulation)(bool, char) = nullptr;
+  /// Null if the library lacks it: then no gripper is read. [rad]
+  int (*getGripperAngle)(double*, char) = nullptr;
   /// Of newer versions; null before: the limit set in the device [N], negative if there is none. Only lowers ours.
   double (*getMaxForce)(char) = nullptr;
 

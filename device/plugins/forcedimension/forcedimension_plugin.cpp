@@ -100,7 +100,8 @@ class DhdDevice final : public NearfitDevice {
     id_ = static_cast<char>(opened);
     describeOpen(index);
     // A gripper has no button: closing it is one.
-    if (api_.hasGripper(id_)) api_.emulateButton(dhd::kOn, id_);
+    hasGripper_ = api_.hasGripper(id_);
+    if (hasGripper_) api_.emulateButton(dhd::kOn, id_);
     api_.enableForce(dhd::kOff, id_);
     thread_ = std::thread([this] { run(); });
   }
@@ -247,6 +248,7 @@ class DhdDevice final : public NearfitDevice {
                 pose.rotation);
     pose.buttons = api_.getButtonMask(id_);
     if (isCalibrated_.load(std::memory_order_acquire)) pose.flags = NEARFIT_DEVICE_CALIBRATED;
+    takeGrip(pose);
     exchange().publish(pose, arrived);
     exchange().waitForWrench(arrived + kAnswerPatience);
     const plugin::PluginWrench wrench = exchange().wrenchNow();
@@ -254,6 +256,16 @@ class DhdDevice final : public NearfitDevice {
     // A positive result only says that it was too early or that a motor is at its limit.
     if (api_.setWrench(force.x, force.y, force.z, torque.x, torque.y, torque.z, 0.0, id_) < 0) return fail();
     failures_ = 0;
+  }
+
+  /// An angle that cannot be read is none in this pose; a device that fails says so by its next call.
+  void takeGrip(NearfitDevicePose& pose) noexcept {
+    double angle = 0.0;
+    if (!hasGripper_ || api_.getGripperAngle == nullptr || api_.getGripperAngle(&angle, id_) < 0) return;
+    if (!std::isfinite(angle)) return;
+    // The documentation does not say which sign an open gripper has, and it may depend on the hand that the device is for.
+    pose.grip = std::abs(angle);
+    pose.flags |= NEARFIT_DEVICE_HAS_GRIP;
   }
 
   void fail() noexcept {
@@ -307,6 +319,7 @@ class DhdDevice final : public NearfitDevice {
   const DhdApi& api_;
   char id_ = -1;
   NearfitDeviceDescription description_{};
+  bool hasGripper_ = false;
   int failures_ = 0;  ///< In a row.
   std::atomic<bool> isCalibrated_{false}, isEnding_{false};
   std::atomic<const char*> words_{nullptr};  ///< Why it is stopped or lost; static text.

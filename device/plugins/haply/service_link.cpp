@@ -49,17 +49,25 @@ struct ServiceLink::Connection {
   beast::websocket::stream<beast::tcp_stream> stream{context};
   beast::flat_buffer buffer;
   std::string text;
+  bool isBroken = false;  ///< An operation did not end in time; the stream takes no other.
 
-  /// Starts an operation and waits for its end. Throws PluginError that says what was not possible.
+  /// Starts an operation and waits for its end, `patience` at most. Throws PluginError that says what was not possible.
   template <class Start>
   void await(const char* what, Start&& start) {
-    std::optional<ErrorCode> result;
-    beast::get_lowest_layer(stream).expires_after(patience);
-    start([&result](const ErrorCode& error, auto&&...) { result = error; });
+    if (isBroken) throw plugin::PluginError(std::string(what) + ": the connection is broken");
+    // Shared, since what does not end in time may end only with the context.
+    const auto result = std::make_shared<std::optional<ErrorCode>>();
+    start([result](const ErrorCode& error, auto&&...) { *result = error; });
     context.restart();
-    context.run();
-    if (result && !*result) return;
-    throw plugin::PluginError(std::string(what) + (result ? ": " + result->message() : ""));
+    // The stream's own timer does not end each wait in the middle of a frame; this one ends whatever is waited for.
+    context.run_for(patience);
+    if (!*result) {
+      isBroken = true;
+      ErrorCode ignored;
+      beast::get_lowest_layer(stream).socket().close(ignored);
+      throw plugin::PluginError(std::string(what) + ": no answer in time");
+    }
+    if (**result) throw plugin::PluginError(std::string(what) + ": " + (*result)->message());
   }
 };
 

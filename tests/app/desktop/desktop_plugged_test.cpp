@@ -1,6 +1,5 @@
 // The window with a device plugged in, used by its widgets alone. Runs under nearfit-emulate, which plugs an
 // emulated OpenHap device into this very program: the real registry, driver and libusb find it.
-#include <QComboBox>
 #include <QToolBar>
 #include <QToolButton>
 #include <algorithm>
@@ -14,8 +13,8 @@
 #include "app/desktop/device_source.h"
 #include "core/servo/motion_reader.h"
 #include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/hand_choice_driver.h"
 #include "tests/exact/pose_certifier.h"
-#include "tests/support/eventually.h"
 #include "ui/widgets/error_box.h"
 #include "ui/widgets/number_field.h"
 
@@ -47,15 +46,6 @@ struct Plugged {
     const PoseCertifier certifier(d.part("fixed").geometry->mesh, d.part("moving").geometry->mesh);
     return std::ranges::count(certifier.meetings(std::exchange(shown, {})), char{1});
   }
-  void choose(const QString& name) {
-    auto* box = d.widget<QComboBox>("hand");
-    QTRY_VERIFY(box->findText(name, Qt::MatchContains) >= 0);
-    const int wanted = box->findText(name, Qt::MatchContains);
-    box->setFocus();
-    for (int keys = 0; keys < 10 && box->currentIndex() != wanted; ++keys)
-      QTest::keyClick(box, box->currentIndex() < wanted ? Qt::Key_Down : Qt::Key_Up);
-    QCOMPARE(box->currentIndex(), wanted);
-  }
   void click(const char* button) { QTest::mouseClick(d.widget<QPushButton>(button), Qt::LeftButton); }
   std::filesystem::path path(const char* name) { return d.folder.path() / name; }
   QString file(const char* name) { return QString::fromStdString(path(name).string()); }
@@ -71,23 +61,6 @@ struct Plugged {
   int recordedSeconds() {
     const QString text = d.action("record")->text();
     return text.section('(', 1).section(' ', 0, 0).toInt();
-  }
-  /// Arms it and waits. Where a thread does not run for 20 ms the device is stopped, and has to be: its user
-  /// resets it and arms it again.
-  template <class Condition>
-  bool armedUntil(Condition&& isTrue) {
-    return eventually([&] {
-      QTest::qWait(10);
-      const ui::ServoStatus& status = d.application.servo().status();
-      if (status.isArmed && isTrue()) return true;
-      if (status.isBusy || status.isArmed) return false;
-      for (const char* button : {"resetDevice", "arm"}) {
-        if (!d.widget<QPushButton>(button)->isVisible()) continue;
-        click(button);
-        break;
-      }
-      return false;
-    });
   }
 
   DesktopDriver d{desktop::makeDeviceSource()};
@@ -110,7 +83,7 @@ class DesktopPluggedTest : public QObject {
 
 void DesktopPluggedTest::itsUserChoosesItIsLedByItArmsItFeelsAndPutsThePartDown() {
   Plugged p;
-  p.choose(QStringLiteral("OpenHap"));
+  chooseHandNamed(p.d, QStringLiteral("OpenHap"));
   p.click("startStop");
   QTRY_VERIFY(p.d.application.servo().isRunning());
   QTRY_VERIFY(p.d.widget<QPushButton>("arm")->isVisible());
@@ -120,7 +93,7 @@ void DesktopPluggedTest::itsUserChoosesItIsLedByItArmsItFeelsAndPutsThePartDown(
   QTRY_VERIFY2(p.lowest < -0.004, "the hand brings the part down to the fixed one");
   QCOMPARE(p.strongest, 0.0);
 
-  QVERIFY2(p.armedUntil([&] { return p.force > 0.5; }), qPrintable(p.d.text("deviceState")));
+  QVERIFY2(armedUntil(p.d, [&] { return p.force > 0.5; }), qPrintable(p.d.text("deviceState")));
   QVERIFY(!p.shown.empty());
   QCOMPARE(p.posesWithin(), std::ptrdiff_t{0});
 
@@ -155,7 +128,7 @@ void DesktopPluggedTest::itsUserChoosesItIsLedByItArmsItFeelsAndPutsThePartDown(
 
 void DesktopPluggedTest::howItReportsIsShownWhileItLeads() {
   Plugged p;
-  p.choose(QStringLiteral("OpenHap"));
+  chooseHandNamed(p.d, QStringLiteral("OpenHap"));
   p.click("startStop");
   QTRY_VERIFY(p.d.application.servo().isRunning());
   QTRY_VERIFY2(p.d.text("reportRate").endsWith(QStringLiteral(" Hz")), qPrintable(p.d.text("reportRate")));
@@ -172,7 +145,7 @@ void DesktopPluggedTest::howItReportsIsShownWhileItLeads() {
 
 void DesktopPluggedTest::whatItLeadsIsRecordedByTheButtonAndReplayed() {
   Plugged p;
-  p.choose(QStringLiteral("OpenHap"));
+  chooseHandNamed(p.d, QStringLiteral("OpenHap"));
   p.click("startStop");
   QTRY_VERIFY(p.pictures > 5);
   const QString led = p.file("led.csv");
@@ -204,7 +177,7 @@ void DesktopPluggedTest::whatItLeadsIsRecordedByTheButtonAndReplayed() {
   const glm::dvec3 high = p.d.part("moving").worldFromPart.translation;
   QCOMPARE(high, glm::dvec3(0.0, 0.0, 0.1));
   p.shown.clear();
-  p.choose(QStringLiteral("Recorded hand"));
+  chooseHandNamed(p.d, QStringLiteral("Recorded hand"));
   if (QTest::currentTestFailed()) return;
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, led); });
   p.click("startStop");

@@ -42,6 +42,7 @@ MotionRow rowAt(double time, test::RandomValues& random) {
   row.isBehind = row.isDistanceBound = true;
   row.isClamped = true;
   row.fault = ServoFault::WrenchNotFinite;
+  if (random.flip(0.5)) row.grip = random.in(0.0, 0.5);
   return row;
 }
 
@@ -67,7 +68,7 @@ class MotionReader : public ::testing::Test {
              {"proxy_qx", "0"},  {"proxy_qy", "0"},  {"proxy_qz", "0"},  {"force_x", "0"},
              {"force_y", "0"},   {"force_z", "0"},   {"torque_x", "0"},  {"torque_y", "0"},
              {"torque_z", "0"},  {"distance", "1"},  {"fault", "0"},     {"tick_us", "1"},
-             {"lmds", "1"}}) {
+             {"lmds", "1"},      {"grip", "nan"}}) {
       header += (header.empty() ? "" : ",") + name;
       row += (row.empty() ? "" : ",") + (name == column ? value : text);
     }
@@ -104,6 +105,7 @@ TEST_F(MotionReader, WhatIsWrittenReadsBackTheSame) {
     again.time = expected.time;
     again.handle = expected.handle;
     again.proxy = expected.proxy;
+    EXPECT_EQ(again.grip, expected.grip);
     EXPECT_EQ(formatMotionRow(again), formatMotionRow(expected));
   }
   ASSERT_EQ(fractions.size(), 2U);
@@ -142,6 +144,7 @@ TEST_F(MotionReader, OlderRecordingsLackColumnsAndLaterOnesMayHaveMore) {
   EXPECT_EQ(rows[0].proxy.translation.x, 0.5);
   EXPECT_EQ(rows[0].distance, kInfinity);
   EXPECT_EQ(rows[0].tickTime, 0.0);
+  EXPECT_FALSE(rows[0].grip);
 }
 
 TEST_F(MotionReader, NothingThatAFileSaysIsTrusted) {
@@ -158,6 +161,8 @@ TEST_F(MotionReader, NothingThatAFileSaysIsTrusted) {
                                                                                       {"fault", "99"},
                                                                                       {"tick_us", "-3"},
                                                                                       {"tick_us", "inf"},
+                                                                                      {"grip", "inf"},
+                                                                                      {"grip", "what"},
                                                                                       {"proxy_tx", "1e12"},
                                                                                       {"handle_qw", "0.5"},
                                                                                       {"torque_y", "what"},

@@ -53,26 +53,27 @@ MotionRow sampleRow() {
   row.wrenchTime = 5.4321e-6;
   row.isClamped = row.isTruncated = row.isBehind = row.isDistanceBound = true;
   row.fault = ServoFault::WrenchNotFinite;
+  row.grip = 0.75;
   return row;
 }
 
 TEST(MotionRecording, TheHeaderNamesTheColumnsInOrder) {
   const std::vector<std::string> expected{
-      "t_s",       "handle_tx", "handle_ty",   "handle_tz", "handle_qw",   "handle_qx",     "handle_qy",
-      "handle_qz", "proxy_tx",  "proxy_ty",    "proxy_tz",  "proxy_qw",    "proxy_qx",      "proxy_qy",
-      "proxy_qz",  "force_x",   "force_y",     "force_z",   "torque_x",    "torque_y",      "torque_z",
-      "lmds",      "distance",  "query_us",    "tick_us",   "late_bodies", "energy",        "sub_steps",
-      "shortened", "refused",   "constraints", "contacts",  "released",    "proxy_us",      "clamped",
-      "fault",     "truncated", "late_us",     "wrench_us", "behind",      "distance_bound"};
+      "t_s",       "handle_tx", "handle_ty",   "handle_tz", "handle_qw",   "handle_qx", "handle_qy",
+      "handle_qz", "proxy_tx",  "proxy_ty",    "proxy_tz",  "proxy_qw",    "proxy_qx",  "proxy_qy",
+      "proxy_qz",  "force_x",   "force_y",     "force_z",   "torque_x",    "torque_y",  "torque_z",
+      "lmds",      "distance",  "query_us",    "tick_us",   "late_bodies", "energy",    "sub_steps",
+      "shortened", "refused",   "constraints", "contacts",  "released",    "proxy_us",  "clamped",
+      "fault",     "truncated", "late_us",     "wrench_us", "behind",      "grip",      "distance_bound"};
   EXPECT_EQ(split(std::string(motionHeader()), ','), expected);
 }
 
 TEST(MotionRecording, ARowHasItsValuesUnderTheirColumns) {
   const std::vector<std::string> columns = split(formatMotionRow(sampleRow()), ',');
-  const std::vector<double> expected{0.001,     1,      2,   3,   0.1,     0.2,   0.3, 0.4, 4,  5,  6,
-                                     0.5,       0.6,    0.7, 0.8, -1,      -2,    -3,  -4,  -5, -6, 17,
-                                     1.0 / 3.0, 12.346, 20,  3,   -2.5e-4, 4,     5,   6,   7,  8,  9,
-                                     1.234,     1,      2,   1,   45.678,  5.432, 1,   1};
+  const std::vector<double> expected{0.001,     1,      2,   3,   0.1,     0.2,   0.3, 0.4,  4,  5,  6,
+                                     0.5,       0.6,    0.7, 0.8, -1,      -2,    -3,  -4,   -5, -6, 17,
+                                     1.0 / 3.0, 12.346, 20,  3,   -2.5e-4, 4,     5,   6,    7,  8,  9,
+                                     1.234,     1,      2,   1,   45.678,  5.432, 1,   0.75, 1};
   ASSERT_EQ(columns.size(), expected.size());
   for (std::size_t i = 0; i < columns.size(); ++i)
     EXPECT_EQ(std::stod(columns[i]), expected[i]) << i;
@@ -82,6 +83,12 @@ TEST(MotionRecording, NothingWithinTheCutoffIsAnInfiniteDistance) {
   MotionRow row = sampleRow();
   row.distance = std::numeric_limits<double>::infinity();
   EXPECT_EQ(split(formatMotionRow(row), ',').at(22), "inf");
+}
+
+TEST(MotionRecording, TheGripOfADeviceWithoutAGripperIsNoNumber) {
+  MotionRow row = sampleRow();
+  row.grip.reset();
+  EXPECT_EQ(split(formatMotionRow(row), ',').at(40), "nan");
 }
 
 TEST(MotionRecording, ARowIsTakenFromASnapshot) {
@@ -102,6 +109,7 @@ TEST(MotionRecording, ARowIsTakenFromASnapshot) {
   snapshot->proxyTime = 9.5;
   snapshot->wrenchTime = 10.5;
   snapshot->isBehind = true;
+  snapshot->grip = 0.25;
   snapshot->subSteps = 11;
   snapshot->shortenedSteps = 12;
   snapshot->refusedSteps = 13;
@@ -127,6 +135,7 @@ TEST(MotionRecording, ARowIsTakenFromASnapshot) {
   EXPECT_EQ(row.proxyTime, 9.5);
   EXPECT_EQ(row.wrenchTime, 10.5);
   EXPECT_TRUE(row.isBehind);
+  EXPECT_EQ(row.grip, 0.25);
   EXPECT_EQ(row.subSteps, 11U);
   EXPECT_EQ(row.shortenedSteps, 12U);
   EXPECT_EQ(row.refusedSteps, 13U);

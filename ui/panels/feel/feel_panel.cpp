@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QComboBox>
 #include <QHBoxLayout>
+#include <QHash>
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
@@ -10,6 +11,7 @@
 #include <QVBoxLayout>
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "ui/model/hand_lead.h"
 #include "ui/model/min_distance.h"
@@ -33,6 +35,8 @@ class FeelPanel::Readouts : public QWidget {
   /// Adds a text below the numbers, in a colour of the light theme, and returns its label. The text keeps its
   /// line while empty, so that nothing jumps.
   QLabel* addNote(const char* objectName, const QColor& colour);
+  /// Shows or hides a number and its name.
+  void showNumber(QLabel* number, bool isShown);
   void setHeading(const QString& heading) { heading_->setText(heading); }
   /// Text in place of a missing number.
   static QString nothing() { return QStringLiteral("–"); }
@@ -40,6 +44,7 @@ class FeelPanel::Readouts : public QWidget {
  private:
   QVBoxLayout* layout_;
   QLabel* heading_;
+  QHash<QLabel*, QLabel*> names_;  ///< By number.
 };
 
 FeelPanel::Readouts::Readouts(const QString& heading, QWidget* parent)
@@ -65,7 +70,13 @@ QLabel* FeelPanel::Readouts::add(const QString& name, const char* objectName, co
   row->addWidget(label);
   row->addWidget(value, 1);
   layout_->addLayout(row);
+  names_.insert(value, label);
   return value;
+}
+
+void FeelPanel::Readouts::showNumber(QLabel* number, bool isShown) {
+  number->setVisible(isShown);
+  names_.value(number)->setVisible(isShown);
 }
 
 QLabel* FeelPanel::Readouts::addNote(const char* objectName, const QColor& colour) {
@@ -157,6 +168,9 @@ void FeelPanel::setUpReadouts() {
                          tr("Mean deviation of the time between two reports from its average"));
   lost_ =
       device_->add(tr("Lost"), "reportsLost", tr("Reports lost or damaged since the part was taken in hand"));
+  grip_ = device_->add(tr("Grip"), "grip",
+                       tr("Opening angle of the device's gripper; it is recorded, and not felt"));
+  device_->showNumber(grip_, false);
   felt_->setObjectName(QStringLiteral("feltNumbers"));
   force_ = felt_->add(tr("Force"), "force");
   torque_ = felt_->add(tr("Torque"), "torque");
@@ -275,6 +289,8 @@ void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) 
   clamped_->setText(snapshot.isClamped ? limitText(snapshot) : QString());
   notice_->showSnapshot(snapshot, scene);
   workspace_->showClutched(snapshot.isClutched);
+  device_->showNumber(grip_, snapshot.grip.has_value());
+  if (snapshot.grip) grip_->setText(formatFixed(glm::degrees(*snapshot.grip), 1) + QStringLiteral("°"));
 }
 
 QString FeelPanel::limitText(const ServoSnapshot& snapshot) const {
@@ -289,6 +305,7 @@ void FeelPanel::showNumbers(const ServoSnapshot& snapshot) {
   torque_->setText(formatTorque(glm::length(snapshot.wrench.torque)));
   distance_->setText(formatMinDistance(minDistanceOf(snapshot)));
   minima_->setText(formatMinima(snapshot.lmdCount, snapshot.isTruncated));
+  minima_->setToolTip(explainMinima(snapshot.isTruncated));
   energy_->setText(formatEnergy(snapshot.energyToHand));
   showProxy(snapshot);
 }
@@ -315,6 +332,7 @@ void FeelPanel::showRecorded(const ServoSnapshot& row) {
 void FeelPanel::clearSnapshot() {
   for (QLabel* label : {force_, torque_, distance_, minima_, contacts_, lead_, energy_, subSteps_})
     label->setText(Readouts::nothing());
+  minima_->setToolTip({});
   felt_->setHeading(tr("Felt"));
   setFelt(false);
   clearNotices();

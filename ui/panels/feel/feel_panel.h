@@ -103,7 +103,7 @@ class FeelPanel : public QWidget {
   HandWorkspace* workspace_;
   Readouts *device_, *felt_, *servo_;
   QLabel *force_, *torque_, *distance_, *minima_, *contacts_, *lead_, *energy_, *clamped_;
-  QLabel *reports_, *jitter_, *lost_;
+  QLabel *reports_, *jitter_, *lost_, *grip_;
   QLabel *rate_, *lateness_, *tick_, *subSteps_, *overruns_, *scheduling_;
   bool isTaken_ = false, isHandEmpty_ = false, hasDevice_ = false;
   DeviceLimits limits_;  ///< Of the device, or of the hand in its place.

@@ -23,6 +23,7 @@ class FeelPanelTest : public QObject {
 
  private slots:
   void aMinDistanceThatIsOnlyABoundIsSaidToBeOne();
+  void aCountThatIsNotOfAllMinimaSaysWhy();
   void aLimitIsTheDevicesOnlyIfThereIsOne();
   void theNoteOnALimitShiftsNothing();
   void longTextsDoNotWidenThePanelBeyondItsDock();
@@ -48,6 +49,29 @@ void FeelPanelTest::aMinDistanceThatIsOnlyABoundIsSaidToBeOne() {
   panel.clearSnapshot();
   panel.keepSnapshot(*snapshot);
   QCOMPARE(distance->text(), QStringLiteral("at least 0.26 mm"));
+}
+
+void FeelPanelTest::aCountThatIsNotOfAllMinimaSaysWhy() {
+  const test::TemporaryFolder folder;
+  ui::PresetStore presets(folder.path() / "presets.json");
+  QAction clutch;
+  ui::FeelPanel panel({new QToolButton, &clutch, presets});
+  const auto* minima = panel.findChild<QLabel*>(QStringLiteral("minima"));
+  QVERIFY(minima != nullptr);
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  snapshot->lmdCount = 12;
+  snapshot->isTruncated = true;
+  panel.showSnapshot(*snapshot, Scene());
+  QCOMPARE(minima->text(), QStringLiteral("12+"));
+  QCOMPARE(minima->toolTip(), QStringLiteral("There may be more: the search stopped at its limit."));
+  snapshot->isTruncated = false;
+  panel.showSnapshot(*snapshot, Scene());
+  QCOMPARE(minima->text(), QStringLiteral("12"));
+  QCOMPARE(minima->toolTip(), QString());
+  snapshot->isTruncated = true;
+  panel.showSnapshot(*snapshot, Scene());
+  panel.clearSnapshot();
+  QCOMPARE(minima->toolTip(), QString());
 }
 
 void FeelPanelTest::aLimitIsTheDevicesOnlyIfThereIsOne() {
