@@ -147,7 +147,7 @@ void MainWindow::makePanels() {
   feel_ = new FeelControl(session_, *hand_, *document_, this);
   feel_->panel().setTakeInHand(*parts_->takeInHand);
   history_ = new HistoryPanel(session_, *document_, this);
-  undo_ = new UndoActions(session_, *document_, this);
+  undo_ = new UndoActions(session_, *document_, *hand_, this);
   QDockWidget* parts = addDock("partsDock", tr("Parts"), partsPanel, Qt::LeftDockWidgetArea);
   QDockWidget* history = addDock("historyDock", tr("History"), history_, Qt::LeftDockWidgetArea);
   tabifyDockWidget(parts, history);

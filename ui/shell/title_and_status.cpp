@@ -238,6 +238,7 @@ void StatusReadout::showSnapshot(const ServoSnapshot& snapshot, bool isFelt) {
   setPresent(*minima_, isFelt);
   setPresent(*distance_, isFelt);
   showText(*minima_, tr("Minima %1").arg(formatMinima(snapshot.lmdCount, snapshot.isTruncated)));
+  minima_->setToolTip(explainMinima(snapshot.isTruncated));
   showText(*distance_, tr("Min distance %1").arg(formatMinDistance(minDistanceOf(snapshot))));
   setIdle(isServoOff_, false);
 }
@@ -246,6 +247,7 @@ void StatusReadout::clearSnapshot() {
   setPresent(*minima_, true);
   setPresent(*distance_, true);
   showText(*minima_, tr("Minima –"));
+  minima_->setToolTip({});
   showText(*distance_, tr("Min distance –"));
   setIdle(isServoOff_, true);
 }

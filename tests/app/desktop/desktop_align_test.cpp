@@ -16,6 +16,7 @@ class DesktopAlignTest : public QObject {
   /// Kept from one window to the next.
   void cleanup() { QSettings().remove(QStringLiteral("placing/solid")); }
   void hoverTellsWhatWouldBePicked();
+  void anOutlineIsPickedFromBothSides();
   void alignsTwoFacesByTwoClicksAsOneStepOfUndo();
   void flipsAndLeavesADistance();
   void solidPartsStopAtContactOnTheWay();
@@ -67,6 +68,37 @@ void DesktopAlignTest::hoverTellsWhatWouldBePicked() {
   d.widget<QComboBox>("alignFilter")->setCurrentIndex(1);
   hover(d, {0.0, kMovingFront, 0.0449});
   QTRY_COMPARE(d.text("alignHint"), QStringLiteral("Flat face of moving"));
+}
+
+void DesktopAlignTest::anOutlineIsPickedFromBothSides() {
+  DesktopDriver d;
+  begin(d);
+  const auto hint = [&] { return d.text("alignHint"); };
+  const double pixel = ViewPointer(d).view().projection().metresPerPixel({0.0, kMovingFront, 0.045});
+  const auto above = [&](double pixels) { return glm::dvec3(0.0, kMovingFront, 0.045 + pixels * pixel); };
+  for (const double pixels : {-5.0, -2.0, 2.0, 5.0}) {
+    hover(d, above(pixels));
+    QTRY_COMPARE(hint(), QStringLiteral("Straight edge of moving"));
+    hover(d, above(20.0));
+    QTRY_COMPARE(hint(), QString());
+  }
+  // Beside a corner, both ways.
+  hover(d, {0.01 + 2.0 * pixel, kMovingFront, 0.045 + 2.0 * pixel});
+  QTRY_COMPARE(hint(), QStringLiteral("Point of moving"));
+  // No face is picked where there is none.
+  d.widget<QComboBox>("alignFilter")->setCurrentIndex(1);
+  hover(d, above(2.0));
+  QTRY_COMPARE(hint(), QString());
+  d.widget<QComboBox>("alignFilter")->setCurrentIndex(0);
+  // In front of another part its outline counts, and not only where nothing is.
+  d.choose("viewTop");
+  QTest::qWait(50);
+  const glm::dvec3 overFixed(0.0, kMovingFront, 0.045);
+  const double topPixel = ViewPointer(d).view().projection().metresPerPixel(overFixed);
+  hover(d, overFixed - glm::dvec3(0.0, 3.0 * topPixel, 0.0));
+  QTRY_COMPARE(hint(), QStringLiteral("Straight edge of moving"));
+  hover(d, overFixed - glm::dvec3(0.0, 20.0 * topPixel, 0.0));
+  QTRY_COMPARE(hint(), QStringLiteral("Flat face of fixed"));
 }
 
 void DesktopAlignTest::alignsTwoFacesByTwoClicksAsOneStepOfUndo() {

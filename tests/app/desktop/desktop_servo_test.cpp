@@ -55,6 +55,7 @@ class DesktopServoTest : public QObject {
   void springsChangeWhileItRuns();
   void partsComeAndGoWhileItRuns();
   void deletingThePartInHandStops();
+  void undoThatTakesThePartOutOfTheHandSaysSo();
   void anotherSceneStopsThoughItsIdsAreTheSame();
   void restingServoDrawsNothing();
 };
@@ -303,6 +304,20 @@ void DesktopServoTest::deletingThePartInHandStops() {
   // It stopped without a word.
   QCOMPARE(d.window().statusBar()->currentMessage(),
            QStringLiteral("Feeling has stopped: moving was deleted"));
+}
+
+void DesktopServoTest::undoThatTakesThePartOutOfTheHandSaysSo() {
+  DesktopDriver d;
+  d.addCubes();
+  startWith(d, ui::Hand::Manual);
+  // Adding the parts is the first step.
+  for (int steps = 0; steps < 3 && d.application.servo().isRunning(); ++steps)
+    d.choose("undo");
+  QVERIFY(!d.application.servo().isRunning());
+  const QString note = d.window().statusBar()->currentMessage();
+  QVERIFY2(note.startsWith(QStringLiteral("Undone: ")), qPrintable(note));
+  QVERIFY2(note.endsWith(QStringLiteral(". Feeling has stopped: moving is no longer in hand")),
+           qPrintable(note));
 }
 
 // It went on with whatever part of the other scene had the same number.

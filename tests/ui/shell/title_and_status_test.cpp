@@ -25,6 +25,7 @@ class TitleAndStatusTest : public QObject {
 
  private slots:
   void aMinDistanceThatIsOnlyABoundIsSaidToBeOne();
+  void aCountThatIsNotOfAllMinimaSaysWhy();
   void numbersStayWhereTheyAre();
   void aNoteEndsWithTheStateThatItIsAbout();
   void aNoteEndsWhenTheNextCommandStarts();
@@ -48,6 +49,24 @@ void TitleAndStatusTest::aMinDistanceThatIsOnlyABoundIsSaidToBeOne() {
   snapshot->isDistanceBound = true;
   emit hand.snapshotDrawn(*snapshot);
   QCOMPARE(distance->text(), QStringLiteral("Min distance at least 0.26 mm"));
+}
+
+void TitleAndStatusTest::aCountThatIsNotOfAllMinimaSaysWhy() {
+  Session session;
+  ui::ShownPoses poses(session);
+  ui::HandState hand(session, poses);
+  QStatusBar bar;
+  const ui::StatusReadout readout(hand, &bar);
+  const auto* minima = bar.findChild<QLabel*>(QStringLiteral("statusMinima"));
+  QVERIFY(minima != nullptr);
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  snapshot->lmdCount = 12;
+  snapshot->isTruncated = true;
+  emit hand.snapshotDrawn(*snapshot);
+  QCOMPARE(minima->text(), QStringLiteral("Minima 12+"));
+  QCOMPARE(minima->toolTip(), QStringLiteral("There may be more: the search stopped at its limit."));
+  emit hand.snapshotCleared();
+  QCOMPARE(minima->toolTip(), QString());
 }
 
 void TitleAndStatusTest::numbersStayWhereTheyAre() {

@@ -4,6 +4,8 @@
 #include <QKeyEvent>
 #include <QShortcut>
 #include <QTimer>
+#include <array>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -18,6 +20,10 @@ namespace {
 
 /// Max distance of the pointer from a corner or edge to pick it [pixels].
 constexpr double kReach = 8.0;
+/// Where an outline is looked for around a pointer beside it [pixels]; within kReach, so that some of it is left.
+constexpr std::array kOutlineRadii{2, 4, 6};
+/// A straight outline at the pointer crosses a ring of so many places, whatever its direction.
+constexpr int kOutlineDirections = 8;
 
 /// A diameter in as many figures as measured distances have.
 QString diameterText(double radius) {
@@ -193,26 +199,53 @@ std::optional<PickedPoint> FeaturePicker::meantAt(const QPoint& position) const 
 }
 
 void FeaturePicker::hoverAt(const QPoint& position) {
-  hovered_.reset();
   const std::optional<PickedPoint> seen = meantAt(position);
   const Part* part = seen ? session_.scene().find(seen->part) : nullptr;
-  QString text;
-  if (part != nullptr) {
-    text = refusalOf(part->id);
-    if (text.isEmpty()) {
-      const RigidTransform pose = view_.poses().shownPoseOf(*part);
-      SurfaceHit hit{seen->triangle, pose.inverse().applyToPoint(seen->point)};
-      const double reach = kReach * view_.projection().metresPerPixel(seen->point);
-      if (auto found = seen->cut ? pickFeature(*seen->cut, hit.point, reach, filter_)
-                                 : pickFeature(part->geometry->mesh, hit, reach, filter_,
-                                               part->geometry->surfaces.get())) {
-        text = tr("%1 of %2").arg(describeFeature(found->feature), shortName(part->name));
-        hovered_ = {seen->part, std::move(*found), hit.point};
-      }
-    }
+  hovered_.reset();
+  QString text = part != nullptr ? refusalOf(part->id) : QString();
+  if (part != nullptr && text.isEmpty()) hovered_ = featureOf(*part, *seen, kReach);
+  // An outline can be meant from either side.
+  if (!hovered_ || hovered_->picked.vertices.empty()) {
+    if (auto outline = outlineNear(position, seen)) hovered_ = std::move(outline);
   }
+  part = hovered_ ? session_.scene().find(hovered_->part) : nullptr;
+  if (part != nullptr)
+    text = tr("%1 of %2").arg(describeFeature(hovered_->picked.feature), shortName(part->name));
   showHovered();
   emit told(text);
+}
+
+std::optional<FeaturePick> FeaturePicker::featureOf(const Part& part, const PickedPoint& seen,
+                                                    double pixels) const {
+  const RigidTransform pose = view_.poses().shownPoseOf(part);
+  SurfaceHit hit{seen.triangle, pose.inverse().applyToPoint(seen.point)};
+  const double reach = pixels * view_.projection().metresPerPixel(seen.point);
+  auto found = seen.cut
+                   ? pickFeature(*seen.cut, hit.point, reach, filter_)
+                   : pickFeature(part.geometry->mesh, hit, reach, filter_, part.geometry->surfaces.get());
+  if (!found) return std::nullopt;
+  return FeaturePick{part.id, std::move(*found), hit.point};
+}
+
+std::optional<FeaturePick> FeaturePicker::outlineNear(const QPoint& position,
+                                                      const std::optional<PickedPoint>& seen) const {
+  if (filter_ == FeatureFilter::Faces) return std::nullopt;
+  const ViewProjection projection = view_.projection();
+  for (const int radius : kOutlineRadii) {
+    for (int turn = 0; turn < kOutlineDirections; ++turn) {
+      const double angle = 2.0 * std::numbers::pi * turn / kOutlineDirections;
+      const QPointF aside = radius * QPointF(std::cos(angle), std::sin(angle));
+      const std::optional<PickedPoint> beside = meantAt(position + aside.toPoint());
+      const Part* part = beside ? session_.scene().find(beside->part) : nullptr;
+      if (part == nullptr || !refusalOf(part->id).isEmpty()) continue;
+      const double reach = kReach * projection.metresPerPixel(beside->point);
+      // On the far side of an outline the view jumps to what is behind.
+      if (seen && projection.depthOf(seen->point) - projection.depthOf(beside->point) <= reach) continue;
+      auto found = featureOf(*part, *beside, kReach - radius);
+      if (found && !found->picked.vertices.empty()) return found;
+    }
+  }
+  return std::nullopt;
 }
 
 void FeaturePicker::forgetHover() {

@@ -71,6 +71,13 @@ class FeaturePicker : public QObject {
   void hoverAt(const QPoint& position);
   /// Returns the surface that is meant at a pixel of the view: what is seen through others comes before these.
   std::optional<PickedPoint> meantAt(const QPoint& position) const;
+  /// Returns the feature at a point that is seen; std::nullopt if none is picked by the filter.
+  /// @param pixels  Reach of edges and corners.
+  std::optional<FeaturePick> featureOf(const Part& part, const PickedPoint& seen, double pixels) const;
+  /// Returns an edge or corner on the outline of a part that ends beside a pixel of the view.
+  /// @param seen  At the pixel; what ends beside it is in front.
+  std::optional<FeaturePick> outlineNear(const QPoint& position,
+                                         const std::optional<PickedPoint>& seen) const;
   QString refusalOf(PartId part) const;
   void forgetHover();
   void showHovered();
