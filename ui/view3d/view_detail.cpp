@@ -33,16 +33,18 @@ constexpr std::chrono::microseconds kTurn = 15ms;
 
 ViewDetail::ViewDetail(CachingRenderer& renderer, vtkRenderer& overlay, SceneRenderer& parts, QObject* parent)
     : QObject(parent), renderer_(renderer), overlay_(overlay), parts_(parts), budget_(kFirstBudget) {
-  for (QTimer* timer : {&still_, &resting_, &next_, &filling_})
+  for (QTimer* timer : {&still_, &resting_, &next_, &filling_, &compiling_})
     timer->setSingleShot(true);
   still_.setInterval(kStillMs);
   resting_.setInterval(kDetailRestMs);
   next_.setInterval(0);
   filling_.setInterval(0);
+  compiling_.setInterval(0);
   connect(&still_, &QTimer::timeout, this, &ViewDetail::beginKeeping);
   connect(&resting_, &QTimer::timeout, this, &ViewDetail::rest);
   connect(&next_, &QTimer::timeout, this, &ViewDetail::keepMore);
   connect(&filling_, &QTimer::timeout, this, &ViewDetail::fillMore);
+  connect(&compiling_, &QTimer::timeout, this, &ViewDetail::compileMore);
 }
 
 void ViewDetail::setBudget(std::size_t triangles) {
@@ -117,6 +119,7 @@ void ViewDetail::smooth(bool isSmooth) {
 
 void ViewDetail::afterPicture() {
   sincePicture_.start();
+  if (!std::exchange(hasDrawn_, true)) compiling_.start();
   // The rest waits for all parts; the time says nothing of how fast those that are there are drawn.
   if (isFilling_) return filling_.start();
   if (detail_.triangles > kSmall && !detail_.isFull) adaptBudget();
@@ -162,6 +165,14 @@ void ViewDetail::keepMore() {
   parts_.showKept();
   isAtRest_ = !parts_.hasLoose();
   emit pictureWanted();
+}
+
+void ViewDetail::compileMore() {
+  if (samples_ == nullptr) samples_ = std::make_unique<ShaderSamples>();
+  renderer_.prepare([this] { return samples_->next(); }, 0us);
+  if (!samples_->isDone()) return compiling_.start();
+  samples_.reset();
+  areShadersReady_ = true;
 }
 
 void ViewDetail::fillMore() {

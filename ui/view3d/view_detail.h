@@ -7,11 +7,13 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "ui/view3d/drawing/caching_renderer.h"
 #include "ui/view3d/parts/scene_renderer.h"
+#include "ui/view3d/parts/shader_samples.h"
 
 namespace nearfit::ui {
 
@@ -58,6 +60,8 @@ class ViewDetail : public QObject {
   const PictureDetail& detail() const noexcept { return detail_; }
   /// True if the last picture is final: no fuller one will follow by itself.
   bool isSettled() const;
+  /// True once the shaders of parts have been compiled: soon after the first picture.
+  bool areShadersReady() const noexcept { return areShadersReady_; }
   /// True if the clipping range must not change, as a kept picture depends on it.
   bool holdsDepths() const noexcept { return isKeeping_ || renderer_.hasKept(); }
 
@@ -96,6 +100,8 @@ class ViewDetail : public QObject {
   void beginKeeping();
   /// Draws on the kept picture for one turn.
   void keepMore();
+  /// Compiles shaders for one turn, before the first document needs them.
+  void compileMore();
   /// Uploads parts that are held back, for one turn.
   void fillMore();
   /// Nothing has moved for a while.
@@ -108,7 +114,7 @@ class ViewDetail : public QObject {
   CachingRenderer& renderer_;
   vtkRenderer& overlay_;
   SceneRenderer& parts_;
-  QTimer still_, resting_, next_, filling_;
+  QTimer still_, resting_, next_, filling_, compiling_;
   QElapsedTimer picture_, sincePicture_;
   PictureDetail detail_;
   std::optional<Key> key_, keptKey_;
@@ -121,6 +127,8 @@ class ViewDetail : public QObject {
   bool isFilling_ = false;     ///< The last picture left new parts out.
   bool showsAllNext_ = false;  ///< The next picture leaves none out.
   FillLimits fillLimits_;
+  std::unique_ptr<ShaderSamples> samples_;
+  bool hasDrawn_ = false, areShadersReady_ = false;
   bool isBudgetFixed_ = false;
   bool isFeeling_ = false;
   FeelQuality quality_ = FeelQuality::Balanced;

@@ -122,6 +122,7 @@ class ViewFillingTest : public QObject {
 
  private slots:
   void aTurnAddsOnePartAndTheLargestComesFirst();
+  void compilingShadersLeavesNoTrace();
   void fewPartsAreInTheFirstPicture();
   void whatIsExportedIsCompleteAtOnce_data();
   void whatIsExportedIsCompleteAtOnce();
@@ -140,11 +141,13 @@ void ViewFillingTest::aTurnAddsOnePartAndTheLargestComesFirst() {
   });
   bool isUploadedBefore = true;
   std::function<void()> beforePicture = [&] {
-    if (!pictures.empty() && !areAllIn()) isUploadedBefore = isUploadedBefore && balls.uploaded() == balls.shown();
+    if (!pictures.empty() && !areAllIn())
+      isUploadedBefore = isUploadedBefore && balls.uploaded() == balls.shown();
   };
   vtkNew<vtkCallbackCommand> begins;
   begins->SetClientData(&beforePicture);
-  begins->SetCallback([](vtkObject*, unsigned long, void* act, void*) { (*static_cast<std::function<void()>*>(act))(); });
+  begins->SetCallback(
+      [](vtkObject*, unsigned long, void* act, void*) { (*static_cast<std::function<void()>*>(act))(); });
   const unsigned long observer = balls.view.renderWindow()->AddObserver(vtkCommand::StartEvent, begins);
   balls.open();
   QTRY_VERIFY(areAllIn());
@@ -159,6 +162,16 @@ void ViewFillingTest::aTurnAddsOnePartAndTheLargestComesFirst() {
   }
   QTRY_VERIFY(balls.view.detail().isSettled());
   QVERIFY(balls.view.detail().detail().isFull);
+  QCOMPARE(balls.picturedIn(balls.view.grabFramebuffer()), allBalls());
+}
+
+void ViewFillingTest::compilingShadersLeavesNoTrace() {
+  BallsToOpen balls;
+  QTRY_VERIFY(balls.view.detail().areShadersReady());
+  balls.view.renderWindow()->Render();
+  QCOMPARE(balls.view.grabFramebuffer(), balls.ground);
+  balls.openAndDraw();
+  QTRY_VERIFY(balls.view.detail().isSettled());
   QCOMPARE(balls.picturedIn(balls.view.grabFramebuffer()), allBalls());
 }
 
