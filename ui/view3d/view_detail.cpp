@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <utility>
 
 #include <vtkCamera.h>
 #include <vtkPropCollection.h>
@@ -32,14 +33,18 @@ constexpr std::chrono::microseconds kTurn = 15ms;
 
 ViewDetail::ViewDetail(CachingRenderer& renderer, vtkRenderer& overlay, SceneRenderer& parts, QObject* parent)
     : QObject(parent), renderer_(renderer), overlay_(overlay), parts_(parts), budget_(kFirstBudget) {
-  for (QTimer* timer : {&still_, &resting_, &next_})
+  for (QTimer* timer : {&still_, &resting_, &next_, &filling_, &compiling_})
     timer->setSingleShot(true);
   still_.setInterval(kStillMs);
   resting_.setInterval(kDetailRestMs);
   next_.setInterval(0);
+  filling_.setInterval(0);
+  compiling_.setInterval(0);
   connect(&still_, &QTimer::timeout, this, &ViewDetail::beginKeeping);
   connect(&resting_, &QTimer::timeout, this, &ViewDetail::rest);
   connect(&next_, &QTimer::timeout, this, &ViewDetail::keepMore);
+  connect(&filling_, &QTimer::timeout, this, &ViewDetail::fillMore);
+  connect(&compiling_, &QTimer::timeout, this, &ViewDetail::compileMore);
 }
 
 void ViewDetail::setBudget(std::size_t triangles) {
@@ -78,7 +83,12 @@ void ViewDetail::beforePicture() {
   // Translucent parts cannot be kept. The last picture at rest shows more of them, and need not be full.
   const bool isLast = isAtRest_ && renderer_.hasKept() && !parts_.hasLoose();
   const std::size_t budget = std::max(budget_, budgetOfFeeling());
-  const DetailChoice choice = parts_.applyDetail({isLast ? std::max(budget, kBudgetAtRest) : budget});
+  const bool showsAll = std::exchange(showsAllNext_, false);
+  // Pictures that draw much else already leave even the last few to the turns between them.
+  const NewPartLimits newLimits = isFilling_ ? NewPartLimits{} : fillLimits_.atOnce;
+  const DetailChoice choice = parts_.applyDetail({isLast ? std::max(budget, kBudgetAtRest) : budget},
+                                                 showsAll ? std::nullopt : std::optional(newLimits));
+  isFilling_ = parts_.isHoldingBack();
   detail_ = {choice.triangles, renderer_.hasKept(), choice.isExact};
   isLimited_ = !choice.isExact;
   // A coarse picture is drawn again at rest, so smoothing waits until then.
@@ -86,11 +96,11 @@ void ViewDetail::beforePicture() {
   smooth(isSmooth);
   // While something moves, translucent parts are blended in the order they are drawn.
   renderer_.setManyColoured(isSmooth && parts_.hasTranslucent());
-  detail_.isFull = detail_.isFull && isSmooth;
+  detail_.isFull = detail_.isFull && isSmooth && !isFilling_;
   isAtRest_ = false;
-  isFinal_ = detail_.isFull || isLast;
+  isFinal_ = detail_.isFull || (isLast && !isFilling_);
   // Only a change that would spoil the kept picture restarts the wait for it; changes drawn over it do not.
-  if (isFinal_ || key_ != now) still_.stop();
+  if (isFinal_ || isFilling_ || key_ != now) still_.stop();
   resting_.stop();
   key_ = now;
 }
@@ -108,6 +118,10 @@ void ViewDetail::smooth(bool isSmooth) {
 }
 
 void ViewDetail::afterPicture() {
+  sincePicture_.start();
+  if (!std::exchange(hasDrawn_, true)) compiling_.start();
+  // The rest waits for all parts; the time says nothing of how fast those that are there are drawn.
+  if (isFilling_) return filling_.start();
   if (detail_.triangles > kSmall && !detail_.isFull) adaptBudget();
   if (isFinal_) return;
   // Start counting now: drawing may take longer than these times, and only later events count as motion.
@@ -153,8 +167,23 @@ void ViewDetail::keepMore() {
   emit pictureWanted();
 }
 
+void ViewDetail::compileMore() {
+  if (samples_ == nullptr) samples_ = std::make_unique<ShaderSamples>();
+  renderer_.prepare([this] { return samples_->next(); }, 0us);
+  if (!samples_->isDone()) return compiling_.start();
+  samples_.reset();
+  areShadersReady_ = true;
+}
+
+void ViewDetail::fillMore() {
+  renderer_.prepare([this] { return parts_.admitNext(); }, fillLimits_.turn);
+  if (parts_.isHoldingBack() && sincePicture_.elapsed() < fillLimits_.betweenPictures.count())
+    return filling_.start();
+  emit pictureWanted();
+}
+
 bool ViewDetail::isSettled() const {
-  return !isKeeping_ && !isAtRest_ && !still_.isActive() && !resting_.isActive();
+  return !isKeeping_ && !isAtRest_ && !isFilling_ && !still_.isActive() && !resting_.isActive();
 }
 
 void ViewDetail::rest() {
@@ -169,10 +198,18 @@ void ViewDetail::rest() {
 }
 
 void ViewDetail::complete() {
+  showAllNext();
   if (!detail_.isFull) completeAnew();
 }
 
+void ViewDetail::showAllNext() {
+  filling_.stop();
+  showsAllNext_ = true;
+}
+
 void ViewDetail::completeAnew() {
+  showAllNext();
+  parts_.admitAll();
   parts_.settle();
   beginKeeping();
   while (isKeeping_)

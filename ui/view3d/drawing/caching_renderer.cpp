@@ -22,7 +22,8 @@ CachingRenderer* CachingRenderer::New() {
 }
 
 template <typename Act>
-void CachingRenderer::intoKept(bool isErased, const Act& draw) {
+void CachingRenderer::into(vtkOpenGLFramebufferObject& target, int width, int height, bool isErased,
+                           const Act& draw) {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(GetRenderWindow());
   if (window == nullptr) return;
   window->MakeCurrent();
@@ -35,15 +36,14 @@ void CachingRenderer::intoKept(bool isErased, const Act& draw) {
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(GL_LEQUAL);
   state->PushFramebufferBindings();
-  const int* size = window->GetSize();
-  kept_->SetContext(window);
-  if (kept_->GetFBOIndex() == 0) {
+  target.SetContext(window);
+  if (target.GetFBOIndex() == 0) {
     constexpr int kDepthBits = 32;
-    kept_->PopulateFramebuffer(size[0], size[1], true, 1, VTK_UNSIGNED_CHAR, true, kDepthBits, 0);
+    target.PopulateFramebuffer(width, height, true, 1, VTK_UNSIGNED_CHAR, true, kDepthBits, 0);
   }
-  kept_->Bind();
-  kept_->Resize(size[0], size[1]);
-  kept_->ActivateDrawBuffer(0);
+  target.Bind();
+  target.Resize(width, height);
+  target.ActivateDrawBuffer(0);
   SetErase(isErased);
   UpdateCamera();
   SetErase(true);
@@ -53,6 +53,14 @@ void CachingRenderer::intoKept(bool isErased, const Act& draw) {
   window->WaitForCompletion();
   state->PopFramebufferBindings();
   state->Pop();
+}
+
+template <typename Act>
+void CachingRenderer::intoKept(bool isErased, const Act& draw) {
+  vtkRenderWindow* window = GetRenderWindow();
+  if (window == nullptr) return;
+  const int* size = window->GetSize();
+  into(*kept_.Get(), size[0], size[1], isErased, draw);
 }
 
 void CachingRenderer::beginKeeping() {
@@ -69,6 +77,24 @@ std::size_t CachingRenderer::keep(std::span<vtkProp* const> props, std::chrono::
       props[count++]->RenderOpaqueGeometry(this);
   });
   return count;
+}
+
+void CachingRenderer::prepare(const std::function<std::vector<vtkProp*>()>& next,
+                              std::chrono::microseconds time) {
+  using Clock = std::chrono::steady_clock;
+  // One pixel takes all that uploading needs, and costs no filling.
+  into(*unseen_.Get(), 1, 1, false, [&] {
+    const Clock::time_point end = Clock::now() + time;
+    do {
+      const std::vector<vtkProp*> props = next();
+      if (props.empty()) return;
+      for (vtkProp* prop : props) {
+        // Each draws only what is of its kind.
+        prop->RenderOpaqueGeometry(this);
+        prop->RenderTranslucentPolygonalGeometry(this);
+      }
+    } while (Clock::now() < end);
+  });
 }
 
 void CachingRenderer::paste() {
@@ -104,6 +130,7 @@ int CachingRenderer::UpdateGeometry(vtkFrameBufferObjectBase* fbo) {
 void CachingRenderer::ReleaseGraphicsResources(vtkWindow* window) {
   isKept_ = false;
   kept_->ReleaseGraphicsResources(window);
+  unseen_->ReleaseGraphicsResources(window);
   Superclass::ReleaseGraphicsResources(window);
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <span>
+#include <vector>
 
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
@@ -46,6 +48,10 @@ class CachingRenderer : public BlendingRenderer {
   /// From now on, pictures draw everything again.
   void dropKept() { isKept_ = false; }
   bool hasKept() const noexcept { return isKept_; }
+  /// Draws props where nobody sees it, visible or not: then OpenGL has their geometry and shaders, and pictures that
+  /// show them are quick. Draws one set after the other until `time` is over; at least one.
+  /// @param next  Returns the next set; empty: there are no more. Called only when its set is drawn.
+  void prepare(const std::function<std::vector<vtkProp*>()>& next, std::chrono::microseconds time);
 
   void DeviceRenderOpaqueGeometry(vtkFrameBufferObjectBase* fbo = nullptr) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
@@ -55,12 +61,16 @@ class CachingRenderer : public BlendingRenderer {
   int UpdateGeometry(vtkFrameBufferObjectBase* fbo = nullptr) override;
 
  private:
-  /// @param draw  Draws into the kept picture instead of the window.
+  /// @param width, height  Size of `target` [pixels].
+  /// @param draw           Draws into `target` instead of the window.
+  template <typename Act>
+  void into(vtkOpenGLFramebufferObject& target, int width, int height, bool isErased, const Act& draw);
+  /// The same into the kept picture.
   template <typename Act>
   void intoKept(bool isErased, const Act& draw);
   void paste();
 
-  vtkNew<vtkOpenGLFramebufferObject> kept_;
+  vtkNew<vtkOpenGLFramebufferObject> kept_, unseen_;
   bool isKept_ = false;
 };
 

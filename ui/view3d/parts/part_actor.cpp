@@ -390,11 +390,26 @@ void PartActor::setKept(bool isKept) {
   showPieces();
 }
 
+void PartActor::holdBack() {
+  if (!isNew_ || isHeldBack_) return;
+  isHeldBack_ = true;
+  showPieces();
+}
+
+void PartActor::admit() {
+  if (!isNew_) return;
+  isNew_ = false;
+  mappers_->setUploaded(level_, !isOpaque());
+  if (!std::exchange(isHeldBack_, false)) return;
+  showPieces();
+}
+
 void PartActor::showPieces() {
-  const bool isDrawn = isVisible_ && !isKept_;
+  const bool isDrawn = isVisible_ && !isKept_ && !isHeldBack_;
   const std::vector<ShapeMappers::Mapper>& mappers = surfaceMappers();
   while (pieces_.size() < mappers.size())
     addPiece();
+  drawnPieces_ = mappers.size();
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     if (i < mappers.size()) pieces_[i]->SetMapper(mappers[i]);
     pieces_[i]->SetVisibility(isDrawn && i < mappers.size());
@@ -419,6 +434,13 @@ void PartActor::bounds(double bounds[6]) const {
 void PartActor::addTo(std::vector<vtkProp*>& props) const {
   props.insert(props.end(), pieces_.begin(), pieces_.end());
   if (hasEdges()) props.push_back(edges_);
+}
+
+std::vector<vtkProp*> PartActor::drawnProps() const {
+  const auto count = static_cast<std::ptrdiff_t>(std::min(drawnPieces_, pieces_.size()));
+  std::vector<vtkProp*> props(pieces_.begin(), pieces_.begin() + count);
+  if (level_ == 0 && hasEdges()) props.push_back(edges_);
+  return props;
 }
 
 void PartActor::setThrough(bool isThrough) {

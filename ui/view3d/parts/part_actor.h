@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -46,6 +47,11 @@ class ShapeMappers {
 
   const std::shared_ptr<const PartShape>& shape() const noexcept { return shape_; }
   bool isCut() const noexcept { return cut_ != nullptr; }
+  /// True if a part has been drawn by the mappers of this level: drawing another by them uploads nothing.
+  bool isUploaded(std::size_t level, bool isTranslucent) const {
+    return uploaded_.contains({level, isTranslucent});
+  }
+  void setUploaded(std::size_t level, bool isTranslucent) { uploaded_.emplace(level, isTranslucent); }
   /// Makes a mapper for a surface, clipped as the shape's own are.
   Mapper surfaceMapperOf(vtkPolyData* data) const;
 
@@ -60,6 +66,7 @@ class ShapeMappers {
   std::array<std::map<std::array<float, 3>, std::vector<Mapper>>, 2> faces_;
   std::array<Mapper, 2> edges_;
   Mapper veil_, veilEdges_;
+  std::set<std::pair<std::size_t, bool>> uploaded_;  ///< Level; true: translucent.
 };
 
 /// Shares one set of mappers for each shape and clipping plane, as long as someone holds it.
@@ -121,6 +128,10 @@ class PartActor {
   bool setColours(std::shared_ptr<const ColouredSurface> colours, bool isStale);
   /// Hides the part while a kept picture shows it (CachingRenderer).
   void setKept(bool isKept);
+  /// Leaves a part that no picture has shown yet out of pictures until admit().
+  void holdBack();
+  /// From now on pictures show the part at any level.
+  void admit();
 
   const PartShape& shape() const noexcept { return *mappers_->shape(); }
   const ShapeMappers& mappers() const noexcept { return *mappers_; }
@@ -136,10 +147,17 @@ class PartActor {
   /// Null if it is drawn in its own colour.
   const std::shared_ptr<const ColouredSurface>& colours() const noexcept { return colours_; }
   bool isKept() const noexcept { return isKept_; }
+  /// True until admit(): no picture shows it, or none has yet.
+  bool isNew() const noexcept { return isNew_; }
+  bool isHeldBack() const noexcept { return isHeldBack_; }
+  /// True if drawing it at its present level uploads nothing.
+  bool isUploaded() const { return mappers_->isUploaded(level_, !isOpaque()); }
   /// Gets the bounds of the mesh itself in the world, VTK's order [m].
   void bounds(double bounds[6]) const;
   /// Appends the actors that draw the visible part, piece by piece.
   void addTo(std::vector<vtkProp*>& props) const;
+  /// Returns the actors that draw the part at its present level, visible or not.
+  std::vector<vtkProp*> drawnProps() const;
   /// Actors of the surface's pieces.
   const std::vector<vtkSmartPointer<vtkActor>>& pieces() const noexcept { return pieces_; }
   /// Shared by all pieces.
@@ -183,7 +201,9 @@ class PartActor {
   std::vector<DetailLevel> levels_;
   bool areColoursStale_ = false;
   std::size_t level_ = 0;
+  std::size_t drawnPieces_ = 0;  ///< Number of pieces_ at this level.
   bool isVisible_ = true, isKept_ = false;
+  bool isNew_ = true, isHeldBack_ = false;
   bool areEdgesApart_ = true;  ///< At the present scale edge lines do not cover the part.
 };
 

@@ -35,6 +35,12 @@ enum class SeenThrough : std::uint8_t {
   Never,
 };
 
+/// Max work that one picture has with parts that none has shown yet: their geometry goes to OpenGL first.
+struct NewPartLimits {
+  std::size_t shapes = 0;     ///< Parts of one shape upload it once. A single shape is never too much.
+  std::size_t triangles = 0;  ///< Of all these shapes together, as they are drawn.
+};
+
 /// Says of a surface of which only what is within the range of clearances is drawn, whether that is so at a point in
 /// the part's frame [m].
 using IsNearAt = std::function<bool(PartId part, std::uint32_t triangle, const glm::dvec3& point)>;
@@ -81,8 +87,18 @@ class SceneRenderer {
   void setOverlapping(std::span<const PartId> parts);
 
   /// Chooses what the next picture draws of each part, except of parts shown by a kept picture.
-  /// @return  The choice for those drawn.
-  DetailChoice applyDetail(const DetailLimits& limits);
+  /// @param newLimits  If parts that no picture has shown yet are more than this, holds all of them back: pictures leave
+  ///                   them out until admitNext(). Everything else takes them as they are. Nullopt: holds none back.
+  /// @return  The choice for those drawn; parts held back have a level, but their triangles do not count.
+  DetailChoice applyDetail(const DetailLimits& limits, const std::optional<NewPartLimits>& newLimits = {});
+  /// True if the last applyDetail() holds parts back and admitNext() has not come to its end since.
+  bool isHoldingBack() const noexcept { return !heldBack_.empty(); }
+  /// Admits the part held back that is largest in the picture to the pictures that follow, and with it parts before and
+  /// behind it that need no upload. Parts that have left or been hidden meanwhile are passed over.
+  /// @return  The props to upload; empty if no part is held back any more.
+  std::vector<vtkProp*> admitNext();
+  /// Admits all parts, those that no picture has shown yet too.
+  void admitAll();
   /// Chooses what a kept picture is to show, and returns its props: visible opaque parts that rest. They
   /// are drawn as usual until showKept().
   std::vector<vtkProp*> keep();
@@ -129,6 +145,11 @@ class SceneRenderer {
   void place(const Part& part);
   void open(PartActor& actor, bool isCut);
   View view() const;
+  /// A part drawn by the next picture.
+  struct Candidate;
+  /// Admits new parts or holds them back, and takes what is held back out of the choice.
+  void limitNew(std::span<const Candidate> drawn, const std::optional<NewPartLimits>& limits,
+                DetailChoice& choice);
   /// True if the cut face of that part is seen through.
   bool isCapSeenThrough(PartId part) const;
   /// Returns the part whose cut face contains a point of the plane.
@@ -149,6 +170,7 @@ class SceneRenderer {
   bool hasEdges_ = true;
   std::set<PartId> loose_;
   std::vector<PartActor*> beingKept_;
+  std::vector<PartId> heldBack_;  ///< The largest in the picture last.
   std::uint64_t revision_ = 0;
 };
 

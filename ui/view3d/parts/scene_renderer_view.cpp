@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -121,10 +123,18 @@ SceneRenderer::View SceneRenderer::view() const {
   return view;
 }
 
-DetailChoice SceneRenderer::applyDetail(const DetailLimits& limits) {
+struct SceneRenderer::Candidate {
+  PartId part{};
+  PartActor* actor = nullptr;
+  bool isSeen = false;
+  double pixels = 0.0;  ///< Size in the picture.
+};
+
+DetailChoice SceneRenderer::applyDetail(const DetailLimits& limits,
+                                        const std::optional<NewPartLimits>& newLimits) {
   const View view = this->view();
   std::vector<DetailCandidate> candidates;
-  std::vector<PartActor*> drawn;
+  std::vector<Candidate> drawn;
   for (const auto& [id, actor] : actors_) {
     if (!actor->isVisible() || actor->isKept()) continue;
     double b[6];
@@ -134,12 +144,63 @@ DetailChoice SceneRenderer::applyDetail(const DetailLimits& limits) {
     const double scale = view.pixelsPerMetre(centre, radius);
     actor->setScale(scale);
     candidates.push_back({actor->levels(), scale, view.sees(centre, radius)});
-    drawn.push_back(actor.get());
+    drawn.push_back({id, actor.get(), candidates.back().isSeen, radius * scale});
   }
   DetailChoice choice = chooseDetail(candidates, limits);
   for (std::size_t i = 0; i < drawn.size(); ++i)
-    drawn[i]->setLevel(choice.levels[i]);
+    drawn[i].actor->setLevel(choice.levels[i]);
+  limitNew(drawn, newLimits, choice);
   return choice;
+}
+
+void SceneRenderer::limitNew(std::span<const Candidate> drawn, const std::optional<NewPartLimits>& limits,
+                             DetailChoice& choice) {
+  heldBack_.clear();
+  std::vector<Candidate> found;
+  std::ranges::copy_if(drawn, std::back_inserter(found), [](const Candidate& c) { return c.actor->isNew(); });
+  std::set<const ShapeMappers*> shapes;
+  std::size_t triangles = 0;
+  for (const Candidate& c : found) {
+    if (!c.actor->isUploaded() && shapes.insert(&c.actor->mappers()).second)
+      triangles += c.actor->levels()[c.actor->level()].triangles;
+  }
+  const bool isTooMuch =
+      limits && shapes.size() > 1 && (shapes.size() > limits->shapes || triangles > limits->triangles);
+  if (!isTooMuch) {
+    for (const Candidate& c : found)
+      c.actor->admit();
+    return;
+  }
+  std::ranges::stable_sort(found, {}, [](const Candidate& c) { return std::pair(c.isSeen, c.pixels); });
+  for (const Candidate& c : found) {
+    c.actor->holdBack();
+    heldBack_.push_back(c.part);
+    if (c.isSeen) choice.triangles -= c.actor->levels()[c.actor->level()].triangles;
+  }
+}
+
+std::vector<vtkProp*> SceneRenderer::admitNext() {
+  std::vector<vtkProp*> props;
+  while (!heldBack_.empty()) {
+    const auto found = actors_.find(heldBack_.back());
+    const bool isLeft = found != actors_.end() && found->second->isHeldBack() && found->second->isVisible();
+    if (isLeft) {
+      PartActor& actor = *found->second;
+      const bool isUploaded = actor.isUploaded();
+      // One that uploads something is the next turn's.
+      if (!isUploaded && !props.empty()) break;
+      actor.admit();
+      if (!isUploaded) props = actor.drawnProps();
+    }
+    heldBack_.pop_back();
+  }
+  return props;
+}
+
+void SceneRenderer::admitAll() {
+  heldBack_.clear();
+  for (const auto& [id, actor] : actors_)
+    actor->admit();
 }
 
 bool SceneRenderer::hasTranslucent() const {
@@ -164,8 +225,10 @@ void SceneRenderer::prepareKept() {
 }
 
 void SceneRenderer::showKept() {
-  for (PartActor* actor : beingKept_)
+  for (PartActor* actor : beingKept_) {
+    actor->admit();
     actor->setKept(true);
+  }
 }
 
 void SceneRenderer::letGoOfKept() {

@@ -1,6 +1,7 @@
 #include "ui/view3d/parts/scene_renderer.h"
 
 #include <QtTest>
+#include <algorithm>
 #include <array>
 
 #include <vtkActorCollection.h>
@@ -28,6 +29,7 @@ class SceneRendererTest : public QObject {
   void edgesThatWouldCoverAPartAreLeftOut();
   void aSelectedPartIsTintedByTheVeilOfItsShape();
   void aPartIsAddedWithoutASearchThroughAllOthers();
+  void newPartsBeyondALimitAreHeldBackAndAdmittedShapeByShape();
   void outlinesBesideAMapStandOutAndFollowTheTheme();
   void edgesStandOutFromFacesAndFollowTheTheme();
   void cleanup() { ui::setColourScheme(ui::ColourScheme::Light); }
@@ -122,6 +124,57 @@ void SceneRendererTest::aPartIsAddedWithoutASearchThroughAllOthers() {
   const ui::PartActor second(*renderer_.Get(), mappers);
   top->Next = next;
   QCOMPARE(props(), before + 2 * ofOne);
+}
+
+void SceneRendererTest::newPartsBeyondALimitAreHeldBackAndAdmittedShapeByShape() {
+  vtkNew<vtkRenderWindow> window;
+  window->SetSize(600, 600);
+  window->AddRenderer(renderer_);
+  // Three parts of one shape, and two of one each.
+  constexpr std::size_t kAllParts = 5, kEnough = 1'000'000;
+  Scene scene;
+  const Part shared = partOf("shared");
+  std::vector<PartId> ids;
+  for (std::size_t i = 0; i < kAllParts; ++i) {
+    Part part = i % 2 == 0 ? shared : partOf("other");
+    part.worldFromPart.translation.x = 0.1 * static_cast<double>(i);
+    ids.push_back(scene.add(part));
+  }
+  parts_.setScene(scene);
+  const auto visible = [&] {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        ids, [&](PartId id) { return parts_.find(id)->pieces().front()->GetVisibility() != 0; }));
+  };
+  const auto applied = [&](const ui::NewPartLimits& limits) { return parts_.applyDetail({kEnough}, limits); };
+  QCOMPARE(applied({2, kEnough}).triangles, std::size_t{0});
+  QVERIFY(parts_.isHoldingBack());
+  QCOMPARE(visible(), std::size_t{0});
+  // 12 triangles each, and edges.
+  applied({3, 35});
+  QCOMPARE(visible(), std::size_t{0});
+  std::size_t uploads = 0;
+  while (!parts_.admitNext().empty())
+    ++uploads;
+  QCOMPARE(uploads, std::size_t{3});
+  QVERIFY(!parts_.isHoldingBack());
+  QCOMPARE(visible(), kAllParts);
+  // None of them is new any more.
+  applied({0, 0});
+  QCOMPARE(visible(), kAllParts);
+  // Others of a shape that is there cost nothing.
+  for (int i = 0; i < 3; ++i)
+    ids.push_back(scene.add(shared));
+  parts_.setScene(scene);
+  applied({0, 0});
+  QCOMPARE(visible(), kAllParts + 3);
+  // Few new ones are within the limit.
+  for (int i = 0; i < 2; ++i)
+    ids.push_back(scene.add(partOf("few")));
+  parts_.setScene(scene);
+  applied({2, kEnough});
+  QVERIFY(!parts_.isHoldingBack());
+  QCOMPARE(visible(), ids.size());
+  window->RemoveRenderer(renderer_);
 }
 
 void SceneRendererTest::edgesThatWouldCoverAPartAreLeftOut() {
