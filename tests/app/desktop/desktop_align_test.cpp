@@ -74,13 +74,15 @@ void DesktopAlignTest::anOutlineIsPickedFromBothSides() {
   DesktopDriver d;
   begin(d);
   const auto hint = [&] { return d.text("alignHint"); };
+  // Where nothing is picked.
+  const QString nothing = hint();
   const double pixel = ViewPointer(d).view().projection().metresPerPixel({0.0, kMovingFront, 0.045});
   const auto above = [&](double pixels) { return glm::dvec3(0.0, kMovingFront, 0.045 + pixels * pixel); };
   for (const double pixels : {-5.0, -2.0, 2.0, 5.0}) {
     hover(d, above(pixels));
     QTRY_COMPARE(hint(), QStringLiteral("Straight edge of moving"));
     hover(d, above(20.0));
-    QTRY_COMPARE(hint(), QString());
+    QTRY_COMPARE(hint(), nothing);
   }
   // Beside a corner, both ways.
   hover(d, {0.01 + 2.0 * pixel, kMovingFront, 0.045 + 2.0 * pixel});
@@ -88,7 +90,7 @@ void DesktopAlignTest::anOutlineIsPickedFromBothSides() {
   // No face is picked where there is none.
   d.widget<QComboBox>("alignFilter")->setCurrentIndex(1);
   hover(d, above(2.0));
-  QTRY_COMPARE(hint(), QString());
+  QTRY_COMPARE(hint(), nothing);
   d.widget<QComboBox>("alignFilter")->setCurrentIndex(0);
   // In front of another part its outline counts, and not only where nothing is.
   d.choose("viewTop");
