@@ -582,10 +582,13 @@ class BodyMesher {
                  fmt::format("Its triangles have gaps along {} edges, where faces do not share their points.",
                              open.gaps));
     }
-    if (request_.isSolid && open.borders > 0)
+    if (request_.isSolid && open.borders > 0) {
       addWarning(
           shape_.warnings,
           fmt::format("It is not closed: {} edges of triangles belong to one face only.", open.borders));
+      // The integrals over its faces depend on the point that they are about.
+      shape_.exactVolume = 0.0;
+    }
   }
 
   void takeSurfaces() {

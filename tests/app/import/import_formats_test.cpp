@@ -95,6 +95,54 @@ TEST(ImportFormats, IgesInInchesKeepsNamesSizesAndColoursOfSewnFaces) {
   EXPECT_TRUE(block.faceColours.empty());
 }
 
+TEST(ImportFormats, ASolidThatLacksAFaceIsSaidNotToBeClosedAndHasNoExactVolume) {
+  const TemporaryFolder folder, cache;
+  std::string bytes = test::readBytes(importModel("box.brep"));
+  // The faces of the solid's shell, of which it loses the first.
+  const std::size_t faces = bytes.find("-25 0 +15 0 -11 0 +7 0 -5 0 +3 0 *");
+  ASSERT_NE(faces, std::string::npos);
+  bytes.erase(faces, std::string("-25 0 ").size());
+  const fs::path file = folder.write("open.brep", bytes);
+  const CadDocument document = imported(file);
+  ASSERT_EQ(document.shapes.size(), 1U);
+  EXPECT_EQ(document.shapes[0].surfaces.faces.size(), 5U);
+  EXPECT_EQ(document.shapes[0].exactVolume, 0.0);
+  // The face was a rectangle, whose edges are straight.
+  const std::string warning = "It is not closed: 4 edges of triangles belong to one face only.";
+  EXPECT_THAT(document.shapes[0].warnings, testing::ElementsAre(warning));
+  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable where("NEARFIT_CACHE", cache.path().string());
+  const test::ProcessResult info = test::runCli({"info", "--unit", "mm", file.string()});
+  EXPECT_EQ(info.exitCode, 0) << info.err;
+  EXPECT_THAT(info.out, testing::AllOf(HasSubstr("warning     open: " + warning), HasSubstr("open, 0.004 x"),
+                                       testing::Not(HasSubstr("(exact"))));
+}
+
+/// OpenCASCADE makes a shell of such a solid of STEP, and shells may be open: the check of its mesh tells.
+TEST(ImportFormats, AStepSolidThatLacksAFaceIsSaidToBeOpen) {
+  const TemporaryFolder folder, cache;
+  std::string bytes = test::readBytes(importModel("two_solids.step"));
+  const std::string head = "CLOSED_SHELL('',(";
+  const std::size_t shell = bytes.find(head);
+  ASSERT_NE(shell, std::string::npos);
+  const std::size_t face = shell + head.size();
+  bytes.erase(face, bytes.find(',', face) + 1 - face);
+  const fs::path file = folder.write("open.step", bytes);
+  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable where("NEARFIT_CACHE", cache.path().string());
+  const test::ProcessResult info = test::runCli({"info", "--json", file.string()});
+  ASSERT_EQ(info.exitCode, 0) << info.err;
+  const nlohmann::json shapes = nlohmann::json::parse(info.out)["shapes"];
+  ASSERT_EQ(shapes.size(), 2U);
+  const std::size_t open = shapes[0]["faces"] == 5 ? 0 : 1;
+  EXPECT_EQ(shapes[open]["faces"], 5);
+  EXPECT_EQ(shapes[open]["closed"], false);
+  EXPECT_TRUE(shapes[open]["exactVolume"].is_null());
+  EXPECT_EQ(shapes[open]["warnings"], nlohmann::json::array({"4 edges are open (one face only)."}));
+  EXPECT_EQ(shapes[1 - open]["closed"], true);
+  EXPECT_TRUE(shapes[1 - open]["warnings"].empty());
+}
+
 /// A ball of one face, 20 mm across.
 constexpr const char* kBall = R"(ISO-10303-21;
 HEADER;
