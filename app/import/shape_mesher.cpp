@@ -582,10 +582,13 @@ class BodyMesher {
                  fmt::format("Its triangles have gaps along {} edges, where faces do not share their points.",
                              open.gaps));
     }
-    if (request_.isSolid && open.borders > 0)
+    if (request_.isSolid && open.borders > 0) {
       addWarning(
           shape_.warnings,
           fmt::format("It is not closed: {} edges of triangles belong to one face only.", open.borders));
+      // The integrals over its faces depend on the point that they are about.
+      shape_.exactVolume = 0.0;
+    }
   }
 
   void takeSurfaces() {
@@ -607,9 +610,7 @@ class BodyMesher {
   }
 
   std::optional<CadColour> colourOf(const TopoDS_Face& face) const {
-    if (request_.colours == nullptr) return std::nullopt;
-    const auto colour = request_.colours->find(face.TShape().get());
-    return colour == request_.colours->end() ? std::nullopt : std::optional(colour->second);
+    return request_.colours == nullptr ? std::nullopt : findColour(*request_.colours, face.TShape().get());
   }
 
   const MeshRequest& request_;
@@ -619,6 +620,11 @@ class BodyMesher {
 };
 
 }  // namespace
+
+std::optional<CadColour> findColour(const ColourTable& colours, const void* identity) {
+  const auto at = colours.find(identity);
+  return at == colours.end() ? std::nullopt : std::optional(at->second);
+}
 
 CadShape meshBody(const MeshRequest& request, const Message_ProgressRange& progress) {
   CadShape shape;
@@ -650,9 +656,10 @@ CadShape meshBody(const MeshRequest& request, const Message_ProgressRange& progr
   return shape;
 }
 
-CadShape meshTriangulated(const TopoDS_Shape& shape, const glm::dmat3& map) {
+CadShape meshTriangulated(const TopoDS_Shape& shape, const glm::dmat3& map, const ColourTable& colours) {
   std::vector<glm::dvec3> vertices;
   std::vector<Triangle> triangles;
+  TriangleColours triangleColours;
   for (const TopoDS_Face& face : facesOf(shape)) {
     TopLoc_Location location;
     const Handle(Poly_Triangulation)& mesh = BRep_Tool::Triangulation(face, location);
@@ -662,6 +669,7 @@ CadShape meshTriangulated(const TopoDS_Shape& shape, const glm::dmat3& map) {
     for (int i = 1; i <= mesh->NbNodes(); ++i)
       vertices.push_back(vectorOf(mesh->Node(i).Transformed(place).XYZ()));
     const bool isTurned = (face.Orientation() == TopAbs_REVERSED) != place.IsNegative();
+    const std::optional<CadColour> colour = findColour(colours, face.TShape().get());
     for (int i = 1; i <= mesh->NbTriangles(); ++i) {
       std::array<int, 3> n{};
       mesh->Triangle(i).Get(n[0], n[1], n[2]);
@@ -670,9 +678,10 @@ CadShape meshTriangulated(const TopoDS_Shape& shape, const glm::dmat3& map) {
       for (std::size_t k = 0; k < 3; ++k)
         triangle[k] = first + static_cast<std::uint32_t>(n[k] - 1);
       triangles.push_back(triangle);
+      triangleColours.add(colour);
     }
   }
-  return triangleShape(vertices, triangles, map);
+  return triangleShape(vertices, triangles, map, triangleColours);
 }
 
 }  // namespace nearfit::importer

@@ -18,6 +18,9 @@ namespace nearfit::importer {
 /// Colours of faces and solids of a product, by TopoDS_TShape.
 using ColourTable = std::unordered_map<const void*, CadColour>;
 
+/// The colour of a shape; std::nullopt if the table has none.
+std::optional<CadColour> findColour(const ColourTable& colours, const void* identity);
+
 /// Geometry that becomes one CadShape.
 struct MeshRequest {
   Body body;             ///< Shells of a solid, or loose shells and faces.
@@ -37,7 +40,9 @@ struct MeshRequest {
 /// Writes into the faces and edges of the body meanwhile: thread-safe for bodies that share neither; see planMeshing().
 CadShape meshBody(const MeshRequest& request, const Message_ProgressRange& progress);
 
-/// Triangles of a shape that has nothing else, as files of triangles give.
-CadShape meshTriangulated(const TopoDS_Shape& shape, const glm::dmat3& map);
+/// Triangles of a shape that has nothing else, as files of triangles give. Those of faces of one colour become a face of
+/// no known surface, if any has a colour.
+/// @param map  From the shape's coordinates to those of the result.
+CadShape meshTriangulated(const TopoDS_Shape& shape, const glm::dmat3& map, const ColourTable& colours);
 
 }  // namespace nearfit::importer

@@ -130,6 +130,12 @@ struct PlacedTriangles {
   TriangleColours colours;
 };
 
+/// The colour of a triangle's face; std::nullopt: it has the colour of its node.
+std::optional<CadColour> ownColour(const CadShape& shape, std::size_t triangle) {
+  return shape.faceColours.empty() ? std::nullopt
+                                   : shape.faceColours[shape.surfaces.faceOfTriangle[triangle]];
+}
+
 /// Throws FileError if it is too much.
 PlacedTriangles placedTriangles(const CadDocument& document, const std::filesystem::path& file) {
   PlacedTriangles all;
@@ -148,9 +154,11 @@ PlacedTriangles placedTriangles(const CadDocument& document, const std::filesyst
     const auto first = static_cast<std::uint32_t>(all.vertices.size());
     for (const glm::dvec3& vertex : shape.vertices)
       all.vertices.push_back(placed.applyToPoint(vertex));
-    for (const Triangle& t : shape.triangles) {
+    for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
+      const Triangle& t = shape.triangles[i];
       all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-      all.colours.add(node.colour);
+      const std::optional<CadColour> own = ownColour(shape, i);
+      all.colours.add(own ? own : node.colour);
     }
   }
   return all;

@@ -210,8 +210,21 @@ class PieceFinder {
   std::size_t visits_ = 0;
 };
 
+/// Adds the colours of faces for the faces that sewing has made of them.
+void keepColours(const BRepBuilderAPI_Sewing& sewing, const TopoDS_Shape& unsewn, ColourTable& colours) {
+  for (TopExp_Explorer old(unsewn, TopAbs_FACE); old.More(); old.Next()) {
+    const std::optional<CadColour> colour = findColour(colours, old.Current().TShape().get());
+    if (!colour) continue;
+    const TopoDS_Shape result = sewing.ModifiedSubShape(old.Current());
+    // A face that is too small is gone.
+    if (result.IsNull()) continue;
+    for (TopExp_Explorer face(result, TopAbs_FACE); face.More(); face.Next())
+      colours.try_emplace(face.Current().TShape().get(), *colour);
+  }
+}
+
 /// Joins faces along edges that lie on each other.
-TopoDS_Shape sewn(const std::vector<TopoDS_Shape>& shapes) {
+TopoDS_Shape sewn(const std::vector<TopoDS_Shape>& shapes, ColourTable& colours) {
   const TopoDS_Compound all = compoundOf(shapes);
   Bnd_Box box;
   BRepBndLib::Add(all, box, Standard_False);
@@ -219,7 +232,9 @@ TopoDS_Shape sewn(const std::vector<TopoDS_Shape>& shapes) {
   BRepBuilderAPI_Sewing sewing(std::sqrt(box.SquareExtent()) * kSewingFraction);
   sewing.Add(all);
   sewing.Perform();
-  return sewing.SewedShape().IsNull() ? TopoDS_Shape(all) : sewing.SewedShape();
+  if (sewing.SewedShape().IsNull()) return all;
+  keepColours(sewing, all, colours);
+  return sewing.SewedShape();
 }
 
 /// Names that programs make up for instances that have none: "NAUO12", "=>[0:1:1:2]", numbers.
@@ -446,9 +461,15 @@ class XcafReader {
         product.colours.try_emplace(face.Value().TShape().get(), *colour);
   }
 
-  static std::optional<CadColour> find(const ColourTable& colours, const void* identity) {
-    const auto at = colours.find(identity);
-    return at == colours.end() ? std::nullopt : std::optional(at->second);
+  /// The colour of all shapes, if they have the same.
+  static std::optional<CadColour> commonColour(const ColourTable& colours,
+                                               const std::vector<TopoDS_Shape>& shapes) {
+    if (shapes.empty()) return std::nullopt;
+    const std::optional<CadColour> first = findColour(colours, shapes.front().TShape().get());
+    const auto isFirst = [&](const TopoDS_Shape& shape) {
+      return findColour(colours, shape.TShape().get()) == first;
+    };
+    return std::ranges::all_of(shapes, isFirst) ? first : std::nullopt;
   }
 
   void addTriangles(Product& product, const TopoDS_Shape& shape) {
@@ -458,8 +479,10 @@ class XcafReader {
     piece.whole = shape.Located(TopLoc_Location());
     piece.productFromPiece = *placement;
     piece.identity = shape.TShape().get();
-    for (TopExp_Explorer face(shape, TopAbs_FACE); face.More() && !piece.colour; face.Next())
-      piece.colour = find(product.colours, face.Current().TShape().get());
+    std::vector<TopoDS_Shape> faces;
+    for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next())
+      faces.push_back(face.Current());
+    piece.colour = commonColour(product.colours, faces);
     product.pieces.push_back(std::move(piece));
   }
 
@@ -469,17 +492,17 @@ class XcafReader {
     LooseFaces& loose = finder.loose();
     looseParts_ += loose.others;
     if (options_.sewsFaces && !loose.shapes.empty()) {
-      const TopoDS_Shape joined = sewn(loose.shapes);
+      const TopoDS_Shape joined = sewn(loose.shapes, product.colours);
       loose.shapes.clear();
       finder.find(joined);
     }
     for (std::size_t i = 0; i < product.pieces.size(); ++i)
-      product.pieces[i].colour = find(product.colours, finder.identities()[i]);
+      product.pieces[i].colour = findColour(product.colours, finder.identities()[i]);
     if (loose.shapes.empty()) return;
     Piece piece;
     piece.body.shells = loose.shapes;
     piece.identity = loose.shapes.front().TShape().get();
-    piece.colour = find(product.colours, piece.identity);
+    piece.colour = commonColour(product.colours, loose.shapes);
     product.pieces.push_back(std::move(piece));
   }
 
@@ -533,7 +556,7 @@ class XcafReader {
             MeshedShape& result) const {
     const double scale = pending.scale * options_.metresPerUnit;
     try {
-      result.shape = options_.areTriangles ? meshTriangulated(pending.piece->whole, glm::dmat3(scale))
+      result.shape = options_.areTriangles ? meshGiven(pending, scale)
                                            : meshExact(pending, scale, range, usesAllThreads);
     } catch (const Standard_Failure& failure) {
       result.problem = failure.GetMessageString();
@@ -563,6 +586,14 @@ class XcafReader {
       return std::abs(p.x) <= kMaxDocumentLength && std::abs(p.y) <= kMaxDocumentLength &&
              std::abs(p.z) <= kMaxDocumentLength;
     });
+  }
+
+  /// Triangles of a piece whose colour is that of all its faces have none of their own: a part is given another colour by
+  /// that of its node.
+  static CadShape meshGiven(const PendingShape& pending, double scale) {
+    const ColourTable none;
+    const ColourTable& colours = pending.piece->colour ? none : pending.product->colours;
+    return meshTriangulated(pending.piece->whole, glm::dmat3(scale), colours);
   }
 
   CadShape meshExact(const PendingShape& pending, double scale, const Message_ProgressRange& range,

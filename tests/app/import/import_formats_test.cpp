@@ -64,6 +64,85 @@ TEST(ImportFormats, FacesOfIgesAreSewnToASolid) {
   EXPECT_EQ(document.nodes[0].name, "box 1");
 }
 
+TEST(ImportFormats, IgesInInchesKeepsNamesSizesAndColoursOfSewnFaces) {
+  const CadDocument document = imported(importModel("parts_inch.igs"));
+  constexpr double kInch = 0.0254;
+  EXPECT_TRUE(document.hasUnit);
+  ASSERT_EQ(document.nodes.size(), 2U);
+  ASSERT_EQ(document.shapes.size(), 2U);
+  EXPECT_EQ(document.nodes[0].name, "plate");
+  EXPECT_EQ(document.nodes[1].name, "block");
+  const CadShape& plate = document.shapes.at(static_cast<std::size_t>(document.nodes[0].shape));
+  const CadShape& block = document.shapes.at(static_cast<std::size_t>(document.nodes[1].shape));
+  expectBox(boxOf(plate, test::worldFromNode(document, 0)), {0, 0, 0}, glm::dvec3(2.0, 1.0, 0.5) * kInch);
+  expectBox(boxOf(block, test::worldFromNode(document, 1)), glm::dvec3(3, 0, 0) * kInch,
+            glm::dvec3(4, 1, 1) * kInch);
+  EXPECT_NEAR(plate.exactVolume, std::pow(kInch, 3), 1e-12);
+  EXPECT_EQ(test::unmatchedEdges(plate), 0U);
+  // One face is green, that at x = 0; the part and its other faces have no colour.
+  EXPECT_FALSE(document.nodes[0].colour.has_value());
+  ASSERT_EQ(plate.faceColours.size(), 6U);
+  EXPECT_EQ(std::ranges::count_if(plate.faceColours, [](const auto& colour) { return colour.has_value(); }),
+            1);
+  const CadColour green{0.0F, 1.0F, 0.0F};
+  for (std::size_t i = 0; i < plate.triangles.size(); ++i) {
+    const bool isAtZero = std::ranges::all_of(
+        plate.triangles[i], [&](std::uint32_t v) { return std::abs(plate.vertices[v].x) < 1e-9; });
+    const std::optional<CadColour>& colour = plate.faceColours[plate.surfaces.faceOfTriangle[i]];
+    EXPECT_EQ(colour, isAtZero ? std::optional(green) : std::nullopt) << i;
+  }
+  EXPECT_FALSE(document.nodes[1].colour.has_value());
+  EXPECT_TRUE(block.faceColours.empty());
+}
+
+TEST(ImportFormats, ASolidThatLacksAFaceIsSaidNotToBeClosedAndHasNoExactVolume) {
+  const TemporaryFolder folder, cache;
+  std::string bytes = test::readBytes(importModel("box.brep"));
+  // The faces of the solid's shell, of which it loses the first.
+  const std::size_t faces = bytes.find("-25 0 +15 0 -11 0 +7 0 -5 0 +3 0 *");
+  ASSERT_NE(faces, std::string::npos);
+  bytes.erase(faces, std::string("-25 0 ").size());
+  const fs::path file = folder.write("open.brep", bytes);
+  const CadDocument document = imported(file);
+  ASSERT_EQ(document.shapes.size(), 1U);
+  EXPECT_EQ(document.shapes[0].surfaces.faces.size(), 5U);
+  EXPECT_EQ(document.shapes[0].exactVolume, 0.0);
+  // The face was a rectangle, whose edges are straight.
+  const std::string warning = "It is not closed: 4 edges of triangles belong to one face only.";
+  EXPECT_THAT(document.shapes[0].warnings, testing::ElementsAre(warning));
+  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable where("NEARFIT_CACHE", cache.path().string());
+  const test::ProcessResult info = test::runCli({"info", "--unit", "mm", file.string()});
+  EXPECT_EQ(info.exitCode, 0) << info.err;
+  EXPECT_THAT(info.out, testing::AllOf(HasSubstr("warning     open: " + warning), HasSubstr("open, 0.004 x"),
+                                       testing::Not(HasSubstr("(exact"))));
+}
+
+/// OpenCASCADE makes a shell of such a solid of STEP, and shells may be open: the check of its mesh tells.
+TEST(ImportFormats, AStepSolidThatLacksAFaceIsSaidToBeOpen) {
+  const TemporaryFolder folder, cache;
+  std::string bytes = test::readBytes(importModel("two_solids.step"));
+  const std::string head = "CLOSED_SHELL('',(";
+  const std::size_t shell = bytes.find(head);
+  ASSERT_NE(shell, std::string::npos);
+  const std::size_t face = shell + head.size();
+  bytes.erase(face, bytes.find(',', face) + 1 - face);
+  const fs::path file = folder.write("open.step", bytes);
+  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable where("NEARFIT_CACHE", cache.path().string());
+  const test::ProcessResult info = test::runCli({"info", "--json", file.string()});
+  ASSERT_EQ(info.exitCode, 0) << info.err;
+  const nlohmann::json shapes = nlohmann::json::parse(info.out)["shapes"];
+  ASSERT_EQ(shapes.size(), 2U);
+  const std::size_t open = shapes[0]["faces"] == 5 ? 0 : 1;
+  EXPECT_EQ(shapes[open]["faces"], 5);
+  EXPECT_EQ(shapes[open]["closed"], false);
+  EXPECT_TRUE(shapes[open]["exactVolume"].is_null());
+  EXPECT_EQ(shapes[open]["warnings"], nlohmann::json::array({"4 edges are open (one face only)."}));
+  EXPECT_EQ(shapes[1 - open]["closed"], true);
+  EXPECT_TRUE(shapes[1 - open]["warnings"].empty());
+}
+
 /// A ball of one face, 20 mm across.
 constexpr const char* kBall = R"(ISO-10303-21;
 HEADER;
@@ -170,6 +249,61 @@ TEST(ImportFormats, GltfOfInfinitiesIsRefusedInOneSentenceWithARemedyThatHelps) 
   EXPECT_THAT(error.problem(), testing::AllOf(HasSubstr("no solids, shells or meshes"),
                                               testing::Not(HasSubstr(".)")), testing::Not(HasSubstr(".."))));
   EXPECT_THAT(error.remedy(), testing::AllOf(HasSubstr("finite"), testing::Not(HasSubstr("solids"))));
+}
+
+/// A tetrahedron in two primitives of two triangles each.
+/// @param first, second  What the two say of their material.
+std::string gltfOfTwoPrimitives(const std::string& first, const std::string& second) {
+  // Four corners as 32-bit floats: the origin, and 1 along each axis; then the indices 0 2 1, 0 1 3, 1 2 3 and 2 0 3 in 16
+  // bits.
+  const std::string data =
+      "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/"
+      "AAACAAEAAAABAAMAAQACAAMAAgAAAAMA";
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"two","mesh":0}],
+"meshes":[{"name":"two","primitives":[{"attributes":{"POSITION":0},"indices":1)" +
+         first + R"(},{"attributes":{"POSITION":0},"indices":2)" + second + R"(}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}},
+{"pbrMetallicRoughness":{"baseColorFactor":[0,0,1,1]}}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},
+{"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"},
+{"bufferView":1,"byteOffset":12,"componentType":5123,"count":6,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24}],
+"buffers":[{"byteLength":72,"uri":"data:application/octet-stream;base64,)" +
+         data + R"("}]})";
+}
+
+constexpr const char* kOfRed = R"(,"material":0)";
+constexpr const char* kOfBlue = R"(,"material":1)";
+constexpr CadColour kRedOfGltf{1.0F, 0.0F, 0.0F}, kBlueOfGltf{0.0F, 0.0F, 1.0F};
+
+TEST(ImportFormats, GltfBringsMaterialsOfPrimitivesAsFaces) {
+  const TemporaryFolder folder;
+  const CadDocument document = imported(folder.write("two.gltf", gltfOfTwoPrimitives(kOfRed, kOfBlue)));
+  ASSERT_EQ(document.shapes.size(), 1U);
+  ASSERT_EQ(document.nodes.size(), 1U);
+  const CadShape& shape = document.shapes[0];
+  EXPECT_FALSE(document.nodes[0].colour.has_value());
+  EXPECT_EQ(shape.faceColours, (std::vector<std::optional<CadColour>>{kRedOfGltf, kBlueOfGltf}));
+  EXPECT_THAT(shape.surfaces.faceOfTriangle, testing::ElementsAre(0, 0, 1, 1));
+  EXPECT_EQ(shape.vertices.size(), 4U);
+  EXPECT_EQ(test::unmatchedEdges(shape), 0U);
+  for (const ExactSurface& surface : shape.surfaces.faces)
+    EXPECT_EQ(surface.kind, SurfaceKind::Other);
+  EXPECT_FALSE(shape.isExact);
+}
+
+TEST(ImportFormats, GltfMeshHasTheColourOfItsPrimitivesOnlyIfAllHaveIt) {
+  const TemporaryFolder folder;
+  const CadDocument half = imported(folder.write("half.gltf", gltfOfTwoPrimitives(kOfRed, ""))),
+                    blue = imported(folder.write("blue.gltf", gltfOfTwoPrimitives(kOfBlue, kOfBlue)));
+  ASSERT_EQ(half.shapes.size(), 1U);
+  EXPECT_FALSE(half.nodes.at(0).colour.has_value());
+  EXPECT_EQ(half.shapes[0].faceColours, (std::vector<std::optional<CadColour>>{kRedOfGltf, std::nullopt}));
+  ASSERT_EQ(blue.shapes.size(), 1U);
+  // It is the part's, and can be changed with it.
+  EXPECT_EQ(blue.nodes.at(0).colour, kBlueOfGltf);
+  EXPECT_TRUE(blue.shapes[0].faceColours.empty());
+  EXPECT_TRUE(blue.shapes[0].surfaces.faces.empty());
 }
 
 /// Writes tetrahedra.glb as text, its buffer in a file of its own.
@@ -416,6 +550,20 @@ TEST(ImportFormats, UrdfKeepsTheColoursOfAGltfFileUnlessItGivesOneItself) {
   ASSERT_EQ(red.shapes.size(), 1U);
   EXPECT_EQ(red.nodes.at(1).colour, (CadColour{1.0F, 0.0F, 0.0F}));
   EXPECT_TRUE(red.shapes[0].faceColours.empty());
+}
+
+TEST(ImportFormats, UrdfKeepsTheMaterialsOfPrimitivesUnlessItGivesAColourItself) {
+  const TemporaryFolder folder;
+  folder.write("two.gltf", gltfOfTwoPrimitives(kOfRed, kOfBlue));
+  const CadDocument plain = imported(folder.write("plain.urdf", robotOf("two.gltf")));
+  ASSERT_EQ(plain.shapes.size(), 1U);
+  EXPECT_FALSE(plain.nodes.at(1).colour.has_value());
+  EXPECT_EQ(plain.shapes[0].faceColours, (std::vector<std::optional<CadColour>>{kRedOfGltf, kBlueOfGltf}));
+  EXPECT_THAT(plain.shapes[0].surfaces.faceOfTriangle, testing::ElementsAre(0, 0, 1, 1));
+  const CadDocument green = imported(folder.write("green.urdf", robotOf("two.gltf", "0 1 0 1")));
+  ASSERT_EQ(green.shapes.size(), 1U);
+  EXPECT_EQ(green.nodes.at(1).colour, (CadColour{0.0F, 1.0F, 0.0F}));
+  EXPECT_TRUE(green.shapes[0].faceColours.empty());
 }
 
 TEST(ImportFormats, UrdfListsTheBuffersOfItsGltfFilesToo) {

@@ -23,7 +23,8 @@ from OCP.BRepPrimAPI import (BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCone, BRepPrim
 from OCP.BRepTools import BRepTools
 from OCP.GProp import GProp_GProps
 from OCP.gp import gp_Ax1, gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
-from OCP.IGESControl import IGESControl_Writer
+from OCP.IGESCAFControl import IGESCAFControl_Writer
+from OCP.IGESControl import IGESControl_Controller, IGESControl_Writer
 from OCP.Interface import Interface_Static
 from OCP.Quantity import Quantity_Color, Quantity_TypeOfColor
 from OCP.STEPCAFControl import STEPCAFControl_Reader, STEPCAFControl_Writer
@@ -190,8 +191,28 @@ def make_other_files():
         struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(data)) + struct.pack("<I4s", len(text), b"JSON") + text +
         struct.pack("<I4s", len(data), b"BIN\0") + data)
 
+    make_iges_of_parts()
     make_threemf(points, corners)
     make_coloured_threemf(points, corners)
+
+
+def make_iges_of_parts():
+    """A plate of 2 x 1 x 0.5 in whose face at x = 0 is green, and beside it a block of 1 in; both as loose faces."""
+    document, shapes, colours = new_document()
+    plate_shape = box(0, 0, 0, 50.8, 25.4, 12.7)
+    plate, block = shapes.AddShape(plate_shape, False), shapes.AddShape(box(76.2, 0, 0, 101.6, 25.4, 25.4), False)
+    set_name(plate, "plate")
+    set_name(block, "block")
+    faces = TopExp_Explorer(plate_shape, TopAbs_ShapeEnum.TopAbs_FACE)
+    colours.SetColor(shapes.AddSubShape(plate, faces.Current()), colour(0, 1, 0), SURFACE)
+    # Without it there is no such setting yet.
+    IGESControl_Controller.Init_s()
+    Interface_Static.SetCVal_s("write.iges.unit", "INCH")
+    writer = IGESCAFControl_Writer()
+    writer.SetColorMode(True)
+    writer.SetNameMode(True)
+    assert writer.Transfer(document)
+    writer.Write(str(MODELS / "parts_inch.igs"))
 
 
 def make_threemf(points, corners):
