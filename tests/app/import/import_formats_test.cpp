@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -118,6 +119,85 @@ TEST(ImportFormats, ProgressGrowsWhileOneFaceIsMeshed) {
   // It takes seconds of processor time, of which each tenth is told.
   const auto onTheWay = std::ranges::count_if(told, [](double x) { return x > 0.2 && x < 0.9; });
   EXPECT_GE(onTheWay, 10) << testing::PrintToString(told);
+}
+
+/// Fractions below `end` that the importer tells while it opens a file: all of them, however late they are read.
+std::vector<double> toldBelow(double end, const fs::path& file) {
+  const test::ProcessResult run =
+      test::runProcess({NEARFIT_IMPORT_PROGRAM, "--messages", "1", "--", file.string()});
+  EXPECT_EQ(run.exitCode, 0) << run.err;
+  std::vector<double> told;
+  for (const std::string& line : test::linesOf(run.out)) {
+    const double fraction = std::stod(line.substr(line.find('\t') + 1));
+    if (fraction > 0.0 && fraction < end) told.push_back(fraction);
+  }
+  return told;
+}
+
+/// Where the reading stage of OpenCASCADE's formats ends, if no tessellation is asked for.
+constexpr double kReadEnd = 0.25;
+
+TEST(ImportFormats, ProgressGrowsWhileTheTextOfStepIsRead) {
+  const TemporaryFolder folder;
+  std::string points;
+  for (int i = 0; i < 300'000; ++i)
+    points += fmt::format("#{}=CARTESIAN_POINT('',({}.,{}.,{}.));\n", i + 100, i, 2 * i, 3 * i);
+  std::string text = kBall;
+  text.insert(text.rfind("ENDSEC;"), points);
+  const std::vector<double> told = toldBelow(kReadEnd, folder.write("points.step", text));
+  EXPECT_GE(told.size(), 5U) << testing::PrintToString(told);
+  // Each MB is told, and the text is most of the work: the processor time that is used would stand for less.
+  ASSERT_FALSE(told.empty());
+  EXPECT_GE(told.back(), 0.6 * kReadEnd) << testing::PrintToString(told);
+}
+
+/// A line of an IGES file: its content, the letter of its section and its number.
+std::string igesLine(const std::string& content, char section, int number) {
+  return fmt::format("{:<72}{}{:>7}\n", content, section, number);
+}
+
+/// box.igs and `count` points.
+std::string igesOfPoints(int count) {
+  std::string head, directory, parameters;
+  int directoryLines = 0, parameterLines = 0;
+  for (const std::string& line : test::linesOf(test::readBytes(importModel("box.igs")))) {
+    const char section = line.at(72);
+    if (section == 'S' || section == 'G') head += line + "\n";
+    if (section == 'D') {
+      directory += line + "\n";
+      ++directoryLines;
+    }
+    if (section == 'P') {
+      parameters += line + "\n";
+      ++parameterLines;
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    const int entry = directoryLines + 1;
+    ++parameterLines;
+    // Type 116: a point, of one line of parameters.
+    directory += igesLine(fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", 116, parameterLines, 0,
+                                      0, 0, 0, 0, 0, "00000000"),
+                          'D', ++directoryLines);
+    directory += igesLine(fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}", 116, 0, 0, 1, 0), 'D', ++directoryLines);
+    parameters +=
+        igesLine(fmt::format("{:<64}{:>8}", fmt::format("116,{}.,1.,2.,0;", i), entry), 'P', parameterLines);
+  }
+  const auto lines = [&](char section) {
+    return std::ranges::count_if(test::linesOf(head),
+                                 [&](const std::string& line) { return line.at(72) == section; });
+  };
+  return head + directory + parameters +
+         igesLine(
+             fmt::format("S{:>7}G{:>7}D{:>7}P{:>7}", lines('S'), lines('G'), directoryLines, parameterLines),
+             'T', 1);
+}
+
+TEST(ImportFormats, ProgressGrowsWhileIgesIsRead) {
+  const TemporaryFolder folder;
+  const std::vector<double> told = toldBelow(kReadEnd, folder.write("points.igs", igesOfPoints(20'000)));
+  // Reading takes some tenths of a second of processor time, of which each is told.
+  EXPECT_FALSE(told.empty());
 }
 
 TEST(ImportFormats, BrepHasNoUnit) {
