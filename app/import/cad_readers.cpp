@@ -1,4 +1,7 @@
 // STEP, IGES, BREP and glTF by OpenCASCADE.
+#include <algorithm>
+#include <cstddef>
+#include <functional>
 #include <istream>
 #include <streambuf>
 #include <string>
@@ -12,6 +15,7 @@
 #include <Interface_InterfaceModel.hxx>
 #include <Interface_Static.hxx>
 #include <Message_ProgressRange.hxx>
+#include <Message_ProgressScope.hxx>
 #include <RWGltf_CafReader.hxx>
 #include <RWMesh_CoordinateSystem.hxx>
 #include <STEPCAFControl_Reader.hxx>
@@ -47,13 +51,39 @@ namespace {
 /// OpenCASCADE's tolerances suit millimetres, which it converts lengths of STEP and IGES to by default.
 constexpr double kMetresPerMillimetre = 1e-3;
 
-/// Bytes in memory as an input stream, without a copy.
+/// What OpenCASCADE takes to parse a STEP file, as a fraction of the whole reading stage; in the rest it builds
+/// entities. Measured on files of 2 and 16 MB.
+constexpr double kParsedFraction = 0.65;
+
+/// Bytes in memory as an input stream, without a copy; it gives them piece by piece, to tell how far they are read.
 class BytesBuffer : public std::streambuf {
  public:
-  explicit BytesBuffer(const std::vector<char>& bytes) {
+  /// @param bytes  Outlive it.
+  /// @param onRead  Called each time that a piece has been read, with that piece's fraction of all bytes; may be empty.
+  explicit BytesBuffer(const std::vector<char>& bytes, std::function<void(double fraction)> onRead = {})
+      : onRead_(std::move(onRead)), size_(bytes.size()), left_(bytes.size()) {
     char* begin = const_cast<char*>(bytes.data());
-    setg(begin, begin, begin + bytes.size());
+    setg(begin, begin, begin);
   }
+
+ protected:
+  int_type underflow() override {
+    if (gptr() < egptr()) return traits_type::to_int_type(*gptr());
+    if (piece_ > 0 && onRead_) onRead_(static_cast<double>(piece_) / static_cast<double>(size_));
+    piece_ = std::min(left_, kPieceBytes);
+    if (piece_ == 0) return traits_type::eof();
+    left_ -= piece_;
+    // All that has been read stays, so that characters can be put back across the border of two pieces.
+    setg(eback(), egptr(), egptr() + piece_);
+    return traits_type::to_int_type(*gptr());
+  }
+
+ private:
+  /// About 0.2 s of parsing.
+  static constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+
+  std::function<void(double)> onRead_;
+  std::size_t size_, left_, piece_ = 0;
 };
 
 Handle(TDocStd_Document) newDocument() {
@@ -123,14 +153,17 @@ CadDocument readStep(const ImportJob& job) {
   if (!isUtf8({job.bytes.data(), job.bytes.size()}) &&
       !Interface_Static::SetCVal("read.step.codepage", "iso8859-1"))
     Interface_Static::SetCVal("read.step.codepage", "ISO8859-1");
-  BytesBuffer buffer(job.bytes);
-  std::istream stream(&buffer);
-  if (reader.ChangeReader().ReadStream(job.file.filename().c_str(), stream) != IFSelect_RetDone)
-    failUnreadable(job, "STEP");
+  {
+    const Message_ProgressRange range = progress.stageTo(stageEndsOf(job).read);
+    const OccProgress::Steady steady(progress);
+    Message_ProgressScope scope(range, "read", 1.0);
+    BytesBuffer buffer(job.bytes, [&](double fraction) { scope.Next(kParsedFraction * fraction); });
+    std::istream stream(&buffer);
+    if (reader.ChangeReader().ReadStream(job.file.filename().c_str(), stream) != IFSelect_RetDone)
+      failUnreadable(job, "STEP");
+  }
   keepNamesOfOtherScripts(*reader.ChangeReader().WS()->Model());
-  job.progress(stageEndsOf(job).read);
   job.endStage("read");
-  progress.stageTo(stageEndsOf(job).read);
   const Handle(TDocStd_Document) document = newDocument();
   Handle(TDocStd_Document) target = document;
   if (!reader.Transfer(target, progress.stageTo(stageEndsOf(job).transferred))) failUnreadable(job, "STEP");
@@ -147,10 +180,12 @@ CadDocument readIges(const ImportJob& job) {
   reader.SetNameMode(Standard_True);
   reader.SetLayerMode(Standard_False);
   const MemoryFile file(job.bytes);
-  if (reader.ReadFile(file.path().c_str()) != IFSelect_RetDone) failUnreadable(job, "IGES");
-  job.progress(stageEndsOf(job).read);
+  {
+    const Message_ProgressRange range = progress.stageTo(stageEndsOf(job).read);
+    const OccProgress::Steady steady(progress);
+    if (reader.ReadFile(file.path().c_str()) != IFSelect_RetDone) failUnreadable(job, "IGES");
+  }
   job.endStage("read");
-  progress.stageTo(stageEndsOf(job).read);
   Handle(TDocStd_Document) document = newDocument();
   if (!reader.Transfer(document, progress.stageTo(stageEndsOf(job).transferred))) failUnreadable(job, "IGES");
   job.endStage("transfer");

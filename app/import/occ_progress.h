@@ -21,8 +21,9 @@ class OccProgress {
   Message_ProgressRange stageTo(double end);
 
   /// While it exists, progress of the present stage grows with the processor time that is used, more slowly the more
-  /// has been used: OpenCASCADE says nothing while it meshes one face, which takes minutes if it is large and its triangles
-  /// are fine. A process that hangs uses none, and one that loops is ended by its limit of it.
+  /// has been used: OpenCASCADE says nothing while it reads an IGES file, builds the entities of a STEP file, or meshes
+  /// one face, each of which takes minutes if there is much of it. A process that hangs uses none, and one that loops is
+  /// ended by its limit of it.
   class Steady {
    public:
     /// @param progress  Outlives it. Nothing else may call stageTo() meanwhile.
@@ -45,8 +46,8 @@ class OccProgress {
 struct StageEnds {
   double read, transferred, meshed;
 };
-/// OpenCASCADE says nothing while it reads, which takes about as long as each of the others, unless a tessellation is
-/// asked for: that is mostly a fine one, and meshing takes most of the time.
+/// Reading takes about as long as each of the others, unless a tessellation is asked for: that is mostly a fine one, and
+/// meshing takes most of the time.
 StageEnds stageEndsOf(const ImportJob& job);
 
 /// Sets OpenCASCADE up: threads of its own number, and no messages on the terminal.

@@ -24,7 +24,8 @@ namespace {
 constexpr double kImportedFraction = 0.95;
 
 /// Time without progress that an import may take, besides that for its size: on a busy machine a face of a fine spline
-/// surface takes seconds [s]. Reading a file has no progress of its own and takes a second for some 10 MB.
+/// surface takes seconds [s]. Opening, unpacking and scanning a file have no progress of their own, and take a second for
+/// some 10 MB; nor has reading 3MF.
 constexpr double kSilence = 20.0, kSilencePerByte = 1e-6;
 
 /// Formats of text, which may be compressed by gzip.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -41,6 +42,26 @@ void expectBox(const Aabb& box, const glm::dvec3& lower, const glm::dvec3& upper
       << box.lower.x << " " << box.lower.y << " " << box.lower.z;
   EXPECT_LE(glm::distance(box.upper, upper), tolerance)
       << box.upper.x << " " << box.upper.y << " " << box.upper.z;
+}
+
+struct BoxOfNode {
+  const char* name;
+  glm::dvec3 lower, upper;
+};
+
+/// Of nodes that have a shape, by their names, in the document's frame.
+void expectBoxesOfNodes(const CadDocument& document, const std::vector<BoxOfNode>& boxes, double tolerance) {
+  for (const BoxOfNode& wanted : boxes) {
+    SCOPED_TRACE(wanted.name);
+    const auto node =
+        std::ranges::find_if(document.nodes, [&](const CadNode& n) { return n.name == wanted.name; });
+    ASSERT_NE(node, document.nodes.end());
+    ASSERT_GE(node->shape, 0);
+    const auto index = static_cast<std::size_t>(node - document.nodes.begin());
+    expectBox(boxOf(document.shapes.at(static_cast<std::size_t>(node->shape)),
+                    test::worldFromNode(document, index)),
+              wanted.lower, wanted.upper, tolerance);
+  }
 }
 
 FileError refusal(const fs::path& file) {
@@ -199,6 +220,85 @@ TEST(ImportFormats, ProgressGrowsWhileOneFaceIsMeshed) {
   EXPECT_GE(onTheWay, 10) << testing::PrintToString(told);
 }
 
+/// Fractions below `end` that the importer tells while it opens a file: all of them, however late they are read.
+std::vector<double> toldBelow(double end, const fs::path& file) {
+  const test::ProcessResult run =
+      test::runProcess({NEARFIT_IMPORT_PROGRAM, "--messages", "1", "--", file.string()});
+  EXPECT_EQ(run.exitCode, 0) << run.err;
+  std::vector<double> told;
+  for (const std::string& line : test::linesOf(run.out)) {
+    const double fraction = std::stod(line.substr(line.find('\t') + 1));
+    if (fraction > 0.0 && fraction < end) told.push_back(fraction);
+  }
+  return told;
+}
+
+/// Where the reading stage of OpenCASCADE's formats ends, if no tessellation is asked for.
+constexpr double kReadEnd = 0.25;
+
+TEST(ImportFormats, ProgressGrowsWhileTheTextOfStepIsRead) {
+  const TemporaryFolder folder;
+  std::string points;
+  for (int i = 0; i < 300'000; ++i)
+    points += fmt::format("#{}=CARTESIAN_POINT('',({}.,{}.,{}.));\n", i + 100, i, 2 * i, 3 * i);
+  std::string text = kBall;
+  text.insert(text.rfind("ENDSEC;"), points);
+  const std::vector<double> told = toldBelow(kReadEnd, folder.write("points.step", text));
+  EXPECT_GE(told.size(), 5U) << testing::PrintToString(told);
+  // Each MB is told, and the text is most of the work: the processor time that is used would stand for less.
+  ASSERT_FALSE(told.empty());
+  EXPECT_GE(told.back(), 0.6 * kReadEnd) << testing::PrintToString(told);
+}
+
+/// A line of an IGES file: its content, the letter of its section and its number.
+std::string igesLine(const std::string& content, char section, int number) {
+  return fmt::format("{:<72}{}{:>7}\n", content, section, number);
+}
+
+/// box.igs and `count` points.
+std::string igesOfPoints(int count) {
+  std::string head, directory, parameters;
+  int directoryLines = 0, parameterLines = 0;
+  for (const std::string& line : test::linesOf(test::readBytes(importModel("box.igs")))) {
+    const char section = line.at(72);
+    if (section == 'S' || section == 'G') head += line + "\n";
+    if (section == 'D') {
+      directory += line + "\n";
+      ++directoryLines;
+    }
+    if (section == 'P') {
+      parameters += line + "\n";
+      ++parameterLines;
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    const int entry = directoryLines + 1;
+    ++parameterLines;
+    // Type 116: a point, of one line of parameters.
+    directory += igesLine(fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", 116, parameterLines, 0,
+                                      0, 0, 0, 0, 0, "00000000"),
+                          'D', ++directoryLines);
+    directory += igesLine(fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}", 116, 0, 0, 1, 0), 'D', ++directoryLines);
+    parameters +=
+        igesLine(fmt::format("{:<64}{:>8}", fmt::format("116,{}.,1.,2.,0;", i), entry), 'P', parameterLines);
+  }
+  const auto lines = [&](char section) {
+    return std::ranges::count_if(test::linesOf(head),
+                                 [&](const std::string& line) { return line.at(72) == section; });
+  };
+  return head + directory + parameters +
+         igesLine(
+             fmt::format("S{:>7}G{:>7}D{:>7}P{:>7}", lines('S'), lines('G'), directoryLines, parameterLines),
+             'T', 1);
+}
+
+TEST(ImportFormats, ProgressGrowsWhileIgesIsRead) {
+  const TemporaryFolder folder;
+  const std::vector<double> told = toldBelow(kReadEnd, folder.write("points.igs", igesOfPoints(20'000)));
+  // Reading takes some tenths of a second of processor time, of which each is told.
+  EXPECT_FALSE(told.empty());
+}
+
 TEST(ImportFormats, BrepHasNoUnit) {
   const CadDocument document = imported(importModel("box.brep"));
   EXPECT_FALSE(document.hasUnit);
@@ -217,6 +317,45 @@ TEST(ImportFormats, GltfIsInMetresAndStandsUp) {
   EXPECT_EQ(document.nodes[1].colour, (CadColour{0.0F, 1.0F, 0.0F}));
   // The file's y, up to 3 + 2, is z here, and its z, up to 2, is -y.
   expectBox(boxOf(document), {0, -2, 0}, {3, 0, 5});
+}
+
+TEST(ImportFormats, ThePinsBesideTheRepositoryAreTwoShapesInSevenPlaces) {
+  const fs::path file = test::sharedModel("public/trimesh_pins.glb");
+  if (!fs::exists(file)) return;
+  const CadDocument document = imported(file);
+  ASSERT_EQ(document.shapes.size(), 2U);
+  ASSERT_EQ(document.nodes.size(), 8U);
+  EXPECT_EQ(document.nodes[0].name, "world");
+  std::size_t placed = 0, triangles = 0;
+  for (const CadNode& node : document.nodes) {
+    if (node.shape < 0) continue;
+    ++placed;
+    triangles += document.shapes.at(static_cast<std::size_t>(node.shape)).triangles.size();
+  }
+  // Instances, triangles and box of ../shared/models/MANIFEST.tsv; the file's y is z here, and its z is -y.
+  EXPECT_EQ(placed, 7U);
+  EXPECT_EQ(triangles, 3408U);
+  constexpr double kDigitsOfManifest = 1e-3;
+  expectBox(boxOf(document), {-63.2372, -215.567, 8.69099}, {190.763, -190.167, 262.691}, kDigitsOfManifest);
+  // By trimesh 5.2.0 of PyPI: triangles, volumes, and the box of each mesh that graph.nodes_geometry places.
+  EXPECT_EQ(document.shapes[0].key, "sides");
+  EXPECT_EQ(document.shapes[0].triangles.size(), 1524U);
+  EXPECT_NEAR(test::volumeOf(document.shapes[0]), 809102.27575, 1e-3);
+  EXPECT_EQ(document.shapes[1].key, "dowel");
+  EXPECT_EQ(document.shapes[1].triangles.size(), 314U);
+  EXPECT_NEAR(test::volumeOf(document.shapes[1]), 799.02636406, 1e-6);
+  // Rotations have six digits in the file.
+  constexpr double kDigitsOfFile = 1e-5;
+  expectBoxesOfNodes(
+      document,
+      {{"sides#1:5:2:4:3", {-63.237232, -215.567468, 8.690994}, {190.762768, -202.867468, 262.690994}},
+       {"dowel#1:9:6:8:7", {115.580379, -215.567462, 100.770067}, {121.930379, -190.167462, 107.111907}},
+       {"dowel#1:10:6:8:7", {60.589576, -215.567462, 69.016442}, {66.935960, -190.167462, 75.365532}},
+       {"dowel#1:11:6:8:7", {60.589576, -215.567462, 196.016449}, {66.935960, -190.167462, 202.365539}},
+       {"dowel#1:12:6:8:7", {5.596962, -215.567462, 100.766442}, {11.943346, -190.167462, 107.115532}},
+       {"dowel#1:13:6:8:7", {115.582187, -215.567462, 164.266449}, {121.928571, -190.167462, 170.615539}},
+       {"dowel#1:14:6:8:7", {5.595154, -215.567462, 164.270074}, {11.945154, -190.167462, 170.611914}}},
+      kDigitsOfFile);
 }
 
 TEST(ImportFormats, GltfIsWeldedAndAScaleIsBakedIntoTheShape) {
@@ -602,12 +741,23 @@ TEST(ImportFormats, UrdfSaysThatColladaIsNotRead) {
               testing::AllOf(HasSubstr("COLLADA (.dae) is not read"), HasSubstr("glTF")));
 }
 
-TEST(ImportFormats, TheRobotBesideTheRepositoryOpensWithAllLinks) {
+TEST(ImportFormats, TheRobotBesideTheRepositoryOpensWithAllLinksInTheirPlaces) {
   const fs::path file = test::sharedModel("public/unitree_dex1/dex1_1.urdf");
   if (!fs::exists(file)) return;
   const CadDocument document = imported(file);
   EXPECT_EQ(document.shapes.size(), 7U);
   EXPECT_EQ(document.nodes.size(), 8U);
+  // By yourdfpy 0.0.60 and trimesh 5.2.0 of PyPI: boxes of the geometry in URDF.load(file).scene, all joints at 0.
+  expectBoxesOfNodes(
+      document,
+      {{"base_link", {-0.034965925, 2e-9, -0.035}, {0.034965921, 0.073799998, 0.089048624}},
+       {"Link1_1", {-0.039449998, 0.054299997, 0.0072}, {0.040549999, 0.068299996, 0.021700001}},
+       {"Link1_2", {0.02155, 0.0655, -0.015200001}, {0.040549999, 0.147299996, 0.0152}},
+       {"Link1_3", {0.025030833, 0.095337667, -0.0142}, {0.02903083, 0.144842958, 0.0142}},
+       {"Link2_1", {-0.040549999, 0.054299997, -0.021700001}, {0.039449998, 0.068299996, -0.0072}},
+       {"Link2_2", {-0.040549999, 0.0655, -0.0152}, {-0.02155, 0.147299996, 0.015200001}},
+       {"Link2_3", {-0.02903083, 0.095337667, -0.0142}, {-0.025030833, 0.144842958, 0.0142}}},
+      1e-7);
 }
 
 TEST(ImportFormats, GzipIsUnpackedWithinABound) {

@@ -2,9 +2,12 @@
 // computed by OpenCASCADE's Python bindings. Files that lie beside the repository are left out where they do not.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -141,6 +144,44 @@ TEST(ImportTree, ColoursOfPartsAreThoseOfTheFile) {
       ASSERT_EQ(colour.has_value(), !wanted[i]["colour"].is_null()) << name;
       for (std::size_t k = 0; colour && k < 3; ++k)
         EXPECT_NEAR((*colour)[k], wanted[i]["colour"][k].get<double>(), 1e-3) << name;
+    }
+  }
+}
+
+/// Colours in which the faces of a placed product are drawn, and how many have each; those without a colour are left out.
+std::map<CadColour, std::size_t> coloursOfFaces(const CadDocument& document, std::size_t product) {
+  std::map<CadColour, std::size_t> counts;
+  for (std::size_t i = 0; i < document.nodes.size(); ++i) {
+    const CadNode& node = document.nodes[i];
+    if (node.shape < 0 || (i != product && node.parent != static_cast<std::int32_t>(product))) continue;
+    const CadShape& shape = document.shapes[static_cast<std::size_t>(node.shape)];
+    for (std::size_t face = 0; face < shape.surfaces.faces.size(); ++face) {
+      const std::optional<CadColour> own =
+          shape.faceColours.empty() ? std::nullopt : shape.faceColours.at(face);
+      const std::optional<CadColour>& drawn = own ? own : node.colour;
+      if (drawn) ++counts[*drawn];
+    }
+  }
+  return counts;
+}
+
+TEST(ImportTree, ColoursOfFacesAreThoseOfTheFile) {
+  for (const auto& [name, document] : documents()) {
+    const json& wanted = oracle().at(name);
+    const std::vector<std::size_t> products = placedProducts(document);
+    ASSERT_EQ(products.size(), wanted.size()) << name;
+    for (std::size_t i = 0; i < products.size(); ++i) {
+      const json& colours = wanted[i]["face_colours"];
+      const std::map<CadColour, std::size_t> found = coloursOfFaces(document, products[i]);
+      ASSERT_EQ(found.size(), colours.size()) << name << " " << i;
+      // Both are sorted by their colours.
+      std::size_t at = 0;
+      for (const auto& [colour, count] : found) {
+        for (std::size_t k = 0; k < 3; ++k)
+          EXPECT_NEAR(colour[k], colours[at][k].get<double>(), 1e-3) << name << " " << i;
+        EXPECT_EQ(count, colours[at][3].get<std::size_t>()) << name << " " << i;
+        ++at;
+      }
     }
   }
 }

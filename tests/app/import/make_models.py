@@ -138,6 +138,32 @@ def make_step_files():
     write_step(document, "two_solids.step")
 
 
+def make_coloured_faces():
+    """Products with colours of faces alone, of a shell and a face of it, and of a part and a face of it."""
+    document, shapes, colours = new_document()
+    striped_shape, lidded_shape = box(0, 0, 0, 30, 20, 10), box(0, 0, 0, 20, 20, 20)
+    drum_shape = BRepPrimAPI_MakeCylinder(axis(0, 0, 0), 8, 25).Shape()
+    striped, lidded, drum = (shapes.AddShape(shape, False) for shape in (striped_shape, lidded_shape, drum_shape))
+    red, green, blue = colour(1, 0, 0), colour(0, 1, 0), colour(0, 0, 1)
+    faces = subshapes(striped_shape, TopAbs_ShapeEnum.TopAbs_FACE)
+    for face, value in zip(faces, (red, blue, red)):
+        colours.SetColor(shapes.AddSubShape(striped, face), value, SURFACE)
+    shell = subshapes(lidded_shape, TopAbs_ShapeEnum.TopAbs_SHELL)[0]
+    colours.SetColor(shapes.AddSubShape(lidded, shell), blue, SURFACE)
+    colours.SetColor(shapes.AddSubShape(lidded, subshapes(lidded_shape, TopAbs_ShapeEnum.TopAbs_FACE)[5]), green, SURFACE)
+    colours.SetColor(drum, colour(0.5, 0.5, 0.5), SURFACE)
+    colours.SetColor(shapes.AddSubShape(drum, subshapes(drum_shape, TopAbs_ShapeEnum.TopAbs_FACE)[0]),
+                     colour(1, 0.5, 0), SURFACE)
+    whole = shapes.NewShape()
+    set_name(whole, "set")
+    for name, part, x in (("striped", striped, 0), ("lidded", lidded, 40), ("drum", drum, 80), ("striped again", striped, 110)):
+        if name != "striped again":
+            set_name(part, name)
+        set_name(shapes.AddComponent(whole, part, moved(x, 0, 0)), name)
+    shapes.UpdateAssemblies()
+    write_step(document, "coloured_faces.step")
+
+
 def make_peg_and_bore():
     """A plate with a bore of radius 8 from its upper face, z = 0, down, and a peg of radius 7.8 with a chamfer at its
     lower end, 5 above the bore; all of it tilted, so that no axis of a bore is one of the file's."""
@@ -298,6 +324,31 @@ def colour_of(label):
     return None
 
 
+def subshapes(shape, kind):
+    explorer, found = TopExp_Explorer(shape, kind), []
+    while explorer.More():
+        found.append(explorer.Current())
+        explorer.Next()
+    return found
+
+
+def face_colours(product, of_part):
+    """Colours of a product's faces with their numbers, sorted: [r, g, b, number]. The colour of a subshape is that of its
+    faces, unless a smaller subshape has one; other faces have the part's. Faces without a colour are not counted."""
+    coloured, parts, counts = [], TDF_LabelSequence(), {}
+    XCAFDoc_ShapeTool.GetSubShapes_s(product, parts)
+    for part in labels(parts):
+        faces = subshapes(XCAFDoc_ShapeTool.GetShape_s(part), TopAbs_ShapeEnum.TopAbs_FACE)
+        if colour_of(part):
+            coloured.append((len(faces), faces, colour_of(part)))
+    coloured.sort(key=lambda entry: entry[0])
+    for face in subshapes(XCAFDoc_ShapeTool.GetShape_s(product), TopAbs_ShapeEnum.TopAbs_FACE):
+        own = next((value for _, faces, value in coloured if any(face.IsPartner(other) for other in faces)), of_part)
+        if own:
+            counts[tuple(own)] = counts.get(tuple(own), 0) + 1
+    return [[*value, number] for value, number in sorted(counts.items())]
+
+
 def labels(sequence):
     return [sequence.Value(i) for i in range(1, sequence.Length() + 1)]
 
@@ -319,9 +370,10 @@ def instances(label, place, path, found):
     entry = TCollection_AsciiString()
     TDF_Tool.Entry_s(target, entry)
     low, high = box_of(shape.Moved(place))
+    of_part = colour_of(label) or colour_of(target)
     found.append({"path": path, "product": entry.ToCString(), "solids": count(shape, TopAbs_ShapeEnum.TopAbs_SOLID),
                   "faces": count(shape, TopAbs_ShapeEnum.TopAbs_FACE), "volume": volume_of(shape),
-                  "colour": colour_of(label) or colour_of(target), "low": low, "high": high})
+                  "colour": of_part, "face_colours": face_colours(target, of_part), "low": low, "high": high})
 
 
 def examine(file):
@@ -341,6 +393,7 @@ def examine(file):
 def main():
     MODELS.mkdir(exist_ok=True)
     make_step_files()
+    make_coloured_faces()
     make_peg_and_bore()
     make_other_files()
     files = sorted(MODELS.glob("*.step")) + sorted(f for f in SHARED.iterdir() if f.suffix.lower() in (".stp", ".step"))
