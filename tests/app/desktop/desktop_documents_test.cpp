@@ -49,6 +49,7 @@ class DesktopDocumentsTest : public QObject {
   void partsThatCameTogetherShowTheirOwnColours();
   void itsUnitIsNotAskedFor();
   void filesWithoutAUnitBesideItAreAskedAboutWithKnownSizes();
+  void aDroppedRobotBringsItsMeshesOnceAndNobodyAsksForTheirUnit();
   void itsUnitCannotBeChangedAndTheToolTipTellsTheReason();
   void aGltfInMillimetresIsPointedOutAndCorrectedAsAWhole();
   void a3mfThatStatesAWrongUnitIsCorrectedAsAWhole();
@@ -122,6 +123,43 @@ void DesktopDocumentsTest::filesWithoutAUnitBesideItAreAskedAboutWithKnownSizes(
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{7});
   QVERIFY(isNear(widthOf(d.part("fixed")), 0.04, 1e-12));
   QVERIFY(isNear(widthOf(d.part("body 2")), 0.1, 1e-12));
+}
+
+/// Each mesh was added a second time beside the robot, after a question for its unit.
+void DesktopDocumentsTest::aDroppedRobotBringsItsMeshesOnceAndNobodyAsksForTheirUnit() {
+  DocumentDesk d;
+  const std::filesystem::path robot = d.folder.path() / "robot";
+  std::filesystem::create_directories(robot / "meshes");
+  const QString arm = writeOff(robot / "meshes" / "arm.off", boxMesh(glm::dvec3(0.01)));
+  d.folder.write("robot/robot.urdf",
+                 R"(<robot name="r"><link name="l"><visual><geometry><mesh filename="meshes/arm.off"/>
+</geometry></visual></link></robot>)");
+  // The importer that stands in makes a vise of it. A question would hold it up.
+  drop(d.window(), {nameOf(robot)});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
+  QTRY_VERIFY(!d.window().document().isBusy());
+  QVERIFY(d.session().scene().findByName("arm") == nullptr);
+  d.choose("undo");
+  // Others beside it are added, and their unit is asked for.
+  writeOff(robot / "table.off", boxMesh(glm::dvec3(0.04)));
+  DialogAnswers answers;
+  QString asked;
+  answers.expect(QStringLiteral("unitDialog"), [&](QDialog& question) {
+    asked = question.findChild<QLabel*>(QStringLiteral("unitQuestion"))->text();
+    answerUnit(&question, "mm");
+    return true;
+  });
+  drop(d.window(), {nameOf(robot)});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{4});
+  QCOMPARE(answers.faults(), QStringList());
+  QVERIFY2(asked.contains(QStringLiteral("table.off")) && !asked.contains(QStringLiteral("arm.off")),
+           qPrintable(asked));
+  QVERIFY(d.session().scene().findByName("table") != nullptr);
+  QVERIFY(d.session().scene().findByName("arm") == nullptr);
+  // A mesh that the user chooses by itself is wanted.
+  QTRY_VERIFY(!d.window().document().isBusy());
+  d.window().document().openFiles({nameOf(robot), arm}, 1e-3);
+  QTRY_VERIFY(d.session().scene().findByName("arm") != nullptr);
 }
 
 void DesktopDocumentsTest::itsUnitCannotBeChangedAndTheToolTipTellsTheReason() {
