@@ -36,8 +36,9 @@ QStringList patternsOf(const std::vector<std::string>& extensions) {
   QStringList patterns;
   for (const std::string& extension : extensions) {
     const QString suffix = QString::fromStdString(extension);
-    patterns << QStringLiteral("*.") + suffix << QStringLiteral("*.") + suffix.toUpper()
-             << QStringLiteral("*.") + suffix + kPacked;
+    patterns << QStringLiteral("*.") + suffix << QStringLiteral("*.") + suffix.toUpper();
+    // Binary formats are refused so.
+    if (isMesh(QStringLiteral("a.") + suffix + kPacked)) patterns << QStringLiteral("*.") + suffix + kPacked;
   }
   return patterns;
 }

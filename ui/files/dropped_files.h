@@ -12,7 +12,7 @@ struct DroppedFiles {
   bool isCutOff = false;     ///< There were more files than kMaxInFolders.
 };
 
-/// File name patterns of mesh files and of CAD documents: "*.stl", "*.stl.gz" and so on.
+/// File name patterns of mesh files and of CAD documents: "*.stl", and "*.stl.gz" where such are read, and so on.
 QStringList meshPatterns();
 QStringList documentPatterns();
 

@@ -50,6 +50,7 @@ class DesktopDocumentsTest : public QObject {
   void itsUnitIsNotAskedFor();
   void filesWithoutAUnitBesideItAreAskedAboutWithKnownSizes();
   void aDroppedRobotBringsItsMeshesOnceAndNobodyAsksForTheirUnit();
+  void compressedFilesAreOfferedWhereTheyAreRead();
   void itsUnitCannotBeChangedAndTheToolTipTellsTheReason();
   void aGltfInMillimetresIsPointedOutAndCorrectedAsAWhole();
   void a3mfThatStatesAWrongUnitIsCorrectedAsAWhole();
@@ -160,6 +161,26 @@ void DesktopDocumentsTest::aDroppedRobotBringsItsMeshesOnceAndNobodyAsksForTheir
   QTRY_VERIFY(!d.window().document().isBusy());
   d.window().document().openFiles({nameOf(robot), arm}, 1e-3);
   QTRY_VERIFY(d.session().scene().findByName("arm") != nullptr);
+}
+
+/// Files were offered that are refused.
+void DesktopDocumentsTest::compressedFilesAreOfferedWhereTheyAreRead() {
+  DocumentDesk d;
+  QString filter;
+  DialogAnswers answers;
+  answers.expect(QStringLiteral("file"), [&](QDialog& dialog) {
+    filter = qobject_cast<QFileDialog*>(&dialog)->nameFilters().constFirst();
+    dialog.reject();
+    return true;
+  });
+  d.choose("addParts");
+  QCOMPARE(answers.faults(), QStringList());
+  for (const char* type : {"stl", "obj", "ply", "off", "step", "stp", "iges", "igs", "brep", "gltf", "urdf"})
+    QVERIFY2(filter.contains(QStringLiteral(" *.%1.gz").arg(QLatin1String(type))), qPrintable(filter));
+  for (const char* type : {"glb", "3mf"}) {
+    QVERIFY2(filter.contains(QStringLiteral(" *.%1 ").arg(QLatin1String(type))), qPrintable(filter));
+    QVERIFY2(!filter.contains(QStringLiteral("*.%1.gz").arg(QLatin1String(type))), qPrintable(filter));
+  }
 }
 
 void DesktopDocumentsTest::itsUnitCannotBeChangedAndTheToolTipTellsTheReason() {

@@ -61,10 +61,11 @@ TEST(MeshFilesNamedInUrdf, AreThoseThatAreThereAndCanBeRead) {
 
 TEST(MeshFilesNamedInUrdf, AreNeitherThoseOfCommentsNorOfOtherElements) {
   const RobotFolder robot;
-  EXPECT_THAT(robot.named(R"(<!-- <mesh filename="../meshes/other.stl"/> --><mesh filename="../meshes/base.stl"/>
+  EXPECT_THAT(
+      robot.named(R"(<!-- <mesh filename="../meshes/other.stl"/> --><mesh filename="../meshes/base.stl"/>
 <texture filename="../meshes/other.stl"/><meshes filename="../meshes/other.stl"/>
 <mesh myfilename="../meshes/other.stl"/>)"),
-              ElementsAre("base.stl"));
+      ElementsAre("base.stl"));
 }
 
 TEST(MeshFilesNamedInUrdf, AreFoundInPackedAndInDamagedFilesWithoutAnError) {
