@@ -51,6 +51,7 @@ class DesktopCommandLineTest : public QObject {
  private slots:
   void helpAndVersionNeedNoDisplay();
   void unknownOptionIsAUsageError();
+  void aToleranceOutOfRangeIsAUsageError();
   void unknownUnitIsAUsageError();
   void saysThatThereIsNoDisplay();
   void writesAPictureOfTheFilesAndEnds();
@@ -78,6 +79,17 @@ void DesktopCommandLineTest::unknownOptionIsAUsageError() {
   QVERIFY(outcome.err.startsWith(QStringLiteral("nearfit: ")));
   QVERIFY(outcome.err.contains(QStringLiteral("--frobnicate")));
   QCOMPARE(outcome.err.count(QLatin1Char('\n')), 1);
+}
+
+void DesktopCommandLineTest::aToleranceOutOfRangeIsAUsageError() {
+  for (const char* option : {"--chord", "--angle"}) {
+    const ProgramOutcome outcome =
+        run({QStringLiteral("a.step"), QLatin1String(option), QStringLiteral("1e9")}, withoutDisplay());
+    QCOMPARE(outcome.code, 2);
+    QVERIFY2(outcome.err.startsWith(QStringLiteral("nearfit: %1: ").arg(QLatin1String(option))),
+             qPrintable(outcome.err));
+    QCOMPARE(outcome.err.count(QLatin1Char('\n')), 1);
+  }
 }
 
 void DesktopCommandLineTest::unknownUnitIsAUsageError() {
