@@ -1,6 +1,7 @@
 #include <QFile>
 #include <QImage>
 #include <QProcess>
+#include <QRegularExpression>
 #include <filesystem>
 #include <set>
 
@@ -52,6 +53,7 @@ class DesktopCommandLineTest : public QObject {
   void helpAndVersionNeedNoDisplay();
   void unknownOptionIsAUsageError();
   void aToleranceOutOfRangeIsAUsageError();
+  void startsWithoutOpenCascade();
   void unknownUnitIsAUsageError();
   void saysThatThereIsNoDisplay();
   void writesAPictureOfTheFilesAndEnds();
@@ -90,6 +92,17 @@ void DesktopCommandLineTest::aToleranceOutOfRangeIsAUsageError() {
              qPrintable(outcome.err));
     QCOMPARE(outcome.err.count(QLatin1Char('\n')), 1);
   }
+}
+
+/// Only the programs that read and write CAD files are linked to it.
+void DesktopCommandLineTest::startsWithoutOpenCascade() {
+  QProcess ldd;
+  ldd.start(QStringLiteral("ldd"), {QStringLiteral(NEARFIT_DESKTOP)});
+  QVERIFY(ldd.waitForFinished(60'000));
+  QCOMPARE(ldd.exitCode(), 0);
+  const QString libraries = QString::fromLocal8Bit(ldd.readAllStandardOutput());
+  QVERIFY2(libraries.contains(QStringLiteral("libQt5Widgets")), qPrintable(libraries));
+  QVERIFY2(!libraries.contains(QRegularExpression(QStringLiteral("libTK[A-Z]"))), qPrintable(libraries));
 }
 
 void DesktopCommandLineTest::unknownUnitIsAUsageError() {
