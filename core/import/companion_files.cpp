@@ -25,6 +25,8 @@ constexpr std::string_view kPackage = "package://";
 constexpr int kMaxAncestors = 4;
 /// Of a URDF file that is searched for its meshes: large robots take a megabyte [bytes].
 constexpr std::uint64_t kMaxSearchedUrdf = std::uint64_t{16} << 20;
+/// Of a companion's name as XML writes it: each character may be an entity of six.
+constexpr std::size_t kMaxWrittenName = 6 * kMaxCompanionNameBytes;
 constexpr std::string_view kXmlSpaces = " \t\r\n";
 
 bool isFolder(const fs::path& path) {
@@ -95,7 +97,8 @@ std::string withoutEntities(std::string text) {
   return text;
 }
 
-/// Value of an attribute of an element, given without its angle brackets; empty if it has none.
+/// Value of an attribute of an element, given without its angle brackets; empty if it has none, or one that is too long
+/// for a name.
 std::string attributeOf(std::string_view element, std::string_view name) {
   for (std::size_t at = element.find(name); at != std::string_view::npos; at = element.find(name, at + 1)) {
     if (at == 0 || kXmlSpaces.find(element[at - 1]) == std::string_view::npos) continue;
@@ -105,7 +108,9 @@ std::string attributeOf(std::string_view element, std::string_view name) {
     if (next == std::string_view::npos || (element[next] != '"' && element[next] != '\'')) continue;
     const std::size_t end = element.find(element[next], next + 1);
     if (end == std::string_view::npos) return {};
-    return withoutEntities(std::string(element.substr(next + 1, end - next - 1)));
+    const std::string_view value = element.substr(next + 1, end - next - 1);
+    // A value of megabytes would take minutes to rewrite.
+    return value.size() <= kMaxWrittenName ? withoutEntities(std::string(value)) : std::string();
   }
   return {};
 }

@@ -74,6 +74,10 @@ TEST(MeshFilesNamedInUrdf, AreFoundInPackedAndInDamagedFilesWithoutAnError) {
   EXPECT_THAT(robot.named(mesh + "<mesh filename=\"../meshes/other.stl"), ElementsAre("base.stl"));
   EXPECT_THAT(robot.named(mesh + "<!-- "), ElementsAre("base.stl"));
   EXPECT_THAT(robot.named(""), IsEmpty());
+  std::string entities;
+  for (int i = 0; i < 2'000'000; ++i)
+    entities += "&lt;";
+  EXPECT_THAT(robot.named("<mesh filename=\"" + entities + "\"/>" + mesh), ElementsAre("base.stl"));
   const fs::path plain = robot.write(mesh, "packed.urdf");
   ASSERT_EQ(test::runProcess({"gzip", plain.string()}).exitCode, 0);
   EXPECT_EQ(meshFilesNamedIn(plain.string() + ".gz").size(), 1U);
