@@ -49,12 +49,12 @@ int run(int argc, char** argv) {
   if (options.device) {
     led.emplace(application, desktop::LedOptions{QString::fromStdString(*options.device), options.isArming,
                                                  options.seconds});
-    led->begin(files, options.metresPerUnit);
+    led->begin(files, options.metresPerUnit, options.tessellation);
   } else if (!options.screenshot.empty()) {
     screenshot.emplace(application, fileNames({options.screenshot}).first());
-    screenshot->take(files, options.metresPerUnit);
+    screenshot->take(files, options.metresPerUnit, options.tessellation);
   } else {
-    application.show(files, options.isDemo, options.metresPerUnit);
+    application.show(files, options.isDemo, options.metresPerUnit, options.tessellation);
   }
   return QApplication::exec();
 }

@@ -69,11 +69,12 @@ Application::Application(std::unique_ptr<DeviceSource> devices)
 
 Application::~Application() = default;
 
-void Application::show(const QStringList& files, bool isDemo, std::optional<double> metresPerUnit) {
+void Application::show(const QStringList& files, bool isDemo, std::optional<double> metresPerUnit,
+                       const std::optional<Tessellation>& tessellation) {
   window_.show();
   const bool isFirst = ui::Preferences::takeFirstRun();
   QTimer::singleShot(0, this, [=, this] {
-    if (!files.isEmpty()) return window_.document().openFiles(files, metresPerUnit);
+    if (!files.isEmpty()) return window_.document().openFiles(files, metresPerUnit, tessellation);
     // A question about lost work comes first.
     if (isFirst && QApplication::activeModalWidget() == nullptr) return window_.beginTour();
     if (isDemo) window_.openDemo();

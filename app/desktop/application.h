@@ -28,8 +28,9 @@ class Application : public QObject {
 
   /// Shows the window, then opens the files, or the demo scene if `isDemo`. The very first run without files
   /// shows the demo scene with the tour.
-  /// @param metresPerUnit  As for Document::openFiles().
-  void show(const QStringList& files, bool isDemo, std::optional<double> metresPerUnit = std::nullopt);
+  /// @param metresPerUnit, tessellation  As for Document::openFiles().
+  void show(const QStringList& files, bool isDemo, std::optional<double> metresPerUnit = std::nullopt,
+            const std::optional<Tessellation>& tessellation = std::nullopt);
 
   Session& session() noexcept { return session_; }
   ui::MainWindow& window() noexcept { return window_; }

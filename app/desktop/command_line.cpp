@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <numbers>
 
 #include <CLI/CLI.hpp>
 
@@ -25,6 +26,17 @@ bool isPng(const std::filesystem::path& file) {
   return ui::fromPath(file.extension()).compare(QStringLiteral(".png"), Qt::CaseInsensitive) == 0;
 }
 
+/// Throws UsageError, naming the option, if a tolerance is out of range.
+Tessellation givenTessellation(double chord, double angleDegrees) {
+  const Tessellation tessellation{chord, angleDegrees * std::numbers::pi / 180.0};
+  try {
+    checkTessellation(tessellation);
+  } catch (const UsageError& error) {
+    throw UsageError("--" + error.where(), error.problem(), error.remedy());
+  }
+  return tessellation;
+}
+
 }  // namespace
 
 std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
@@ -44,6 +56,20 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
                                             "Unit of the coordinates of files that store none: m, cm, mm, "
                                             "um, in, ft, or a number of metres")
                                 ->needs(files);
+  double chord = 0.0, angle = 0.0;
+  const CLI::Option* chordOption =
+      program
+          .add_option("--chord", chord,
+                      "Max distance between the exact surfaces of CAD documents and their triangles [m]; 0: "
+                      "chosen from each shape's size. Default: as chosen in the window")
+          ->type_name("METRES")
+          ->needs(files);
+  const CLI::Option* angleOption =
+      program
+          .add_option("--angle", angle,
+                      "Max angle between neighbouring facets of such a surface [degrees]; 0: the importer's")
+          ->type_name("DEGREES")
+          ->needs(files);
   CLI::Option* demo = program
                           .add_flag("--demo", options.isDemo,
                                     "Open a copy of the demo scene; the original is never overwritten")
@@ -78,6 +104,8 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
     program.parse(argc, argv);
     if (!hand->empty()) options.device = device;
     if (!unitOption->empty()) options.metresPerUnit = parseMeshUnit(unit, "--unit");
+    if (!chordOption->empty() || !angleOption->empty() || options.isUnattended())
+      options.tessellation = givenTessellation(chord, angle);
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& error) {

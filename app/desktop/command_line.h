@@ -6,18 +6,23 @@
 #include <variant>
 #include <vector>
 
+#include "core/import/cad_document.h"
+
 namespace nearfit::desktop {
 
 /// Options of the command line.
 struct Options {
   std::vector<std::string> files;       ///< Meshes, documents, folders, and at most one scene.
   std::optional<double> metresPerUnit;  ///< Of files that store none; std::nullopt: the window asks.
-  bool isDemo = false;                  ///< Opens the demo scene.
-  std::string screenshot;               ///< File for a picture of the window; empty: a normal run.
-  std::optional<std::string> device;    ///< Takes the part in hand at once; empty text: the first usable one.
-  bool isArming = false;                ///< Arms the device as soon as it is ready.
-  std::optional<double> seconds;        ///< Ends after that time [s].
-  std::string record;                   ///< File for what is felt; empty: none.
+  /// Of documents; std::nullopt: as it was chosen in the window. An unattended run always has one: what it shows does not
+  /// depend on that.
+  std::optional<Tessellation> tessellation;
+  bool isDemo = false;                ///< Opens the demo scene.
+  std::string screenshot;             ///< File for a picture of the window; empty: a normal run.
+  std::optional<std::string> device;  ///< Takes the part in hand at once; empty text: the first usable one.
+  bool isArming = false;              ///< Arms the device as soon as it is ready.
+  std::optional<double> seconds;      ///< Ends after that time [s].
+  std::string record;                 ///< File for what is felt; empty: none.
 
   /// True if nobody watches the run, or it ends by itself: it must not ask questions.
   bool isUnattended() const noexcept { return !screenshot.empty() || seconds.has_value(); }

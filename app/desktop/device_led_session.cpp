@@ -32,10 +32,11 @@ DeviceLedSession::DeviceLedSession(Application& application, LedOptions options)
   connect(&application_.servo(), &ServoController::statusChanged, this, &DeviceLedSession::follow);
 }
 
-void DeviceLedSession::begin(const QStringList& files, std::optional<double> metresPerUnit) {
+void DeviceLedSession::begin(const QStringList& files, std::optional<double> metresPerUnit,
+                             const std::optional<Tessellation>& tessellation) {
   application_.window().show();
-  QTimer::singleShot(0, this,
-                     [=, this] { application_.window().document().openFiles(files, metresPerUnit); });
+  QTimer::singleShot(
+      0, this, [=, this] { application_.window().document().openFiles(files, metresPerUnit, tessellation); });
 }
 
 void DeviceLedSession::take(bool isComplete) {

@@ -25,8 +25,9 @@ class DeviceLedSession : public QObject {
   DeviceLedSession(Application& application, LedOptions options);
 
   /// Starts. If `seconds` is set, the event loop ends with 0, or with 1 after a message on stderr.
-  /// @param metresPerUnit  As for Document::openFiles().
-  void begin(const QStringList& files, std::optional<double> metresPerUnit);
+  /// @param metresPerUnit, tessellation  As for Document::openFiles().
+  void begin(const QStringList& files, std::optional<double> metresPerUnit,
+             const std::optional<Tessellation>& tessellation);
 
  private:
   void take(bool isComplete);

@@ -32,15 +32,17 @@ Screenshot::Screenshot(Application& application, QString output)
   connect(&window.document(), &ui::Document::loaded, this, &Screenshot::arrange);
 }
 
-void Screenshot::take(const QStringList& files, std::optional<double> metresPerUnit) {
+void Screenshot::take(const QStringList& files, std::optional<double> metresPerUnit,
+                      const std::optional<Tessellation>& tessellation) {
   ui::MainWindow& window = application_.window();
   window.resize(1280, 800);
   window.show();
   if (files.isEmpty()) {
     QTimer::singleShot(kSettleMs, this, &Screenshot::write);
   } else {
-    QTimer::singleShot(0, this,
-                       [=, this] { application_.window().document().openFiles(files, metresPerUnit); });
+    QTimer::singleShot(0, this, [=, this] {
+      application_.window().document().openFiles(files, metresPerUnit, tessellation);
+    });
   }
 }
 

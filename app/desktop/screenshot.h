@@ -18,8 +18,9 @@ class Screenshot : public QObject {
   Screenshot(Application& application, QString output);
 
   /// Starts; the event loop then ends with 0, or with 1 after a message on stderr.
-  /// @param metresPerUnit  As for Document::openFiles().
-  void take(const QStringList& files, std::optional<double> metresPerUnit);
+  /// @param metresPerUnit, tessellation  As for Document::openFiles().
+  void take(const QStringList& files, std::optional<double> metresPerUnit,
+            const std::optional<Tessellation>& tessellation);
 
  private:
   void arrange(bool isComplete);

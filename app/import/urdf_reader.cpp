@@ -102,11 +102,6 @@ bool isGltf(const std::filesystem::path& mesh) {
   return extension == "gltf" || extension == "glb";
 }
 
-bool isReadableMesh(const std::filesystem::path& mesh) {
-  const std::vector<std::string>& readable = importableExtensions();
-  return isGltf(mesh) || std::ranges::find(readable, lowerExtension(mesh)) != readable.end();
-}
-
 /// A glTF file as if it were imported by itself, without a sign of its progress and without its hash.
 ImportJob gltfJob(const std::filesystem::path& file) {
   ImportJob job;
@@ -346,7 +341,7 @@ class UrdfReader {
   void noteFiles(const std::string& name) {
     const FoundFile found = files_.find(name);
     // A file that is never read decides nothing.
-    if (found.problem.empty() && !isReadableMesh(found.path)) return;
+    if (found.problem.empty() && !isMeshForUrdf(found.path)) return;
     companions_.add(name, found);
     if (!found.problem.empty() || !isGltf(found.path)) return;
     try {
@@ -371,7 +366,7 @@ class UrdfReader {
     };
     const FoundFile found = files_.find(mesh.filename);
     if (!found.problem.empty()) return leftOut(found.problem);
-    if (!isReadableMesh(found.path)) {
+    if (!isMeshForUrdf(found.path)) {
       const std::string extension = lowerExtension(found.path);
       return leftOut((extension == "dae" ? "COLLADA (.dae)" : '.' + extension) +
                      " is not read; convert it to glTF, STL or OBJ");

@@ -2,10 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cstdint>
 #include <iterator>
 #include <system_error>
+#include <utility>
 
+#include "core/base/error.h"
+#include "core/files/gunzip.h"
+#include "core/files/input_file.h"
 #include "core/import/document_import.h"
+#include "core/import/mesh_import.h"
 #include "core/text/utf8.h"
 
 namespace nearfit {
@@ -16,6 +23,11 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPackage = "package://";
 /// Folders above the package that are searched for others.
 constexpr int kMaxAncestors = 4;
+/// Of a URDF file that is searched for its meshes: large robots take a megabyte [bytes].
+constexpr std::uint64_t kMaxSearchedUrdf = std::uint64_t{16} << 20;
+/// Of a companion's name as XML writes it: each character may be an entity of six.
+constexpr std::size_t kMaxWrittenName = 6 * kMaxCompanionNameBytes;
+constexpr std::string_view kXmlSpaces = " \t\r\n";
 
 bool isFolder(const fs::path& path) {
   std::error_code error;
@@ -64,6 +76,66 @@ bool isPackageName(const std::string& name) {
   return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
 }
 
+/// Text of a file as it is, or unpacked; empty if it cannot be read or is too large.
+std::vector<char> searchableText(const fs::path& file) {
+  try {
+    if (InputFile(file).size() > kMaxSearchedUrdf) return {};
+    std::vector<char> bytes = readWholeFile(file);
+    return isGzip(bytes) ? gunzip(bytes, file.string(), kMaxSearchedUrdf) : bytes;
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
+std::string withoutEntities(std::string text) {
+  // The ampersand last: what it was written for is no entity.
+  constexpr std::array<std::pair<std::string_view, char>, 5> kEntities{
+      {{"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}, {"&amp;", '&'}}};
+  for (const auto& [entity, character] : kEntities)
+    for (std::size_t at = text.find(entity); at != std::string::npos; at = text.find(entity, at + 1))
+      text.replace(at, entity.size(), 1, character);
+  return text;
+}
+
+/// Value of an attribute of an element, given without its angle brackets; empty if it has none, or one that is too long
+/// for a name.
+std::string attributeOf(std::string_view element, std::string_view name) {
+  for (std::size_t at = element.find(name); at != std::string_view::npos; at = element.find(name, at + 1)) {
+    if (at == 0 || kXmlSpaces.find(element[at - 1]) == std::string_view::npos) continue;
+    std::size_t next = element.find_first_not_of(kXmlSpaces, at + name.size());
+    if (next == std::string_view::npos || element[next] != '=') continue;
+    next = element.find_first_not_of(kXmlSpaces, next + 1);
+    if (next == std::string_view::npos || (element[next] != '"' && element[next] != '\'')) continue;
+    const std::size_t end = element.find(element[next], next + 1);
+    if (end == std::string_view::npos) return {};
+    const std::string_view value = element.substr(next + 1, end - next - 1);
+    // A value of megabytes would take minutes to rewrite.
+    return value.size() <= kMaxWrittenName ? withoutEntities(std::string(value)) : std::string();
+  }
+  return {};
+}
+
+/// Names that the mesh elements of a URDF file give, without those in comments.
+std::vector<std::string> meshNamesIn(std::string_view text) {
+  constexpr std::string_view kComment = "<!--", kCommentEnd = "-->", kMesh = "<mesh";
+  std::vector<std::string> names;
+  std::size_t at = text.find('<');
+  while (at != std::string_view::npos && names.size() < kMaxCompanions) {
+    const bool isComment = text.substr(at).starts_with(kComment);
+    const std::size_t end = isComment ? text.find(kCommentEnd, at + kComment.size()) : text.find('>', at);
+    if (end == std::string_view::npos) break;
+    const std::string_view element = text.substr(at, end - at);
+    const bool isMesh = !isComment && element.starts_with(kMesh) &&
+                        element.find_first_of(kXmlSpaces, kMesh.size()) == kMesh.size();
+    if (isMesh) {
+      std::string name = attributeOf(element.substr(kMesh.size()), "filename");
+      if (isCompanionName(name)) names.push_back(std::move(name));
+    }
+    at = text.find('<', end);
+  }
+  return names;
+}
+
 }  // namespace
 
 bool isCompanionName(std::string_view name) {
@@ -74,6 +146,28 @@ bool isCompanionName(std::string_view name) {
 bool mayHaveCompanions(const fs::path& document) {
   constexpr std::array<std::string_view, 3> kFormats{"gltf", "glb", "urdf"};
   return std::ranges::find(kFormats, documentFormat(document)) != kFormats.end();
+}
+
+bool isMeshForUrdf(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".gltf" || extension == ".glb") return true;
+  return std::ranges::any_of(importableExtensions(),
+                             [&](const std::string& known) { return extension == '.' + known; });
+}
+
+std::vector<fs::path> meshFilesNamedIn(const fs::path& document) {
+  if (documentFormat(document) != "urdf") return {};
+  const std::vector<char> text = searchableText(document);
+  const std::vector<std::string> names = meshNamesIn({text.data(), text.size()});
+  const CompanionFinder finder(document, names);
+  std::vector<fs::path> files;
+  for (const std::string& name : names) {
+    FoundFile found = finder.find(name);
+    if (found.problem.empty() && isMeshForUrdf(found.path)) files.push_back(std::move(found.path));
+  }
+  return files;
 }
 
 UrdfFiles::UrdfFiles(const fs::path& file, std::string_view text)

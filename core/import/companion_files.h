@@ -21,6 +21,14 @@ bool isCompanionName(std::string_view name);
 /// True if documents of this name may have companions: glTF and URDF.
 bool mayHaveCompanions(const std::filesystem::path& document);
 
+/// True if meshes of this name are read for a URDF file: mesh files and glTF, not compressed.
+bool isMeshForUrdf(const std::filesystem::path& file);
+
+/// Meshes that a URDF file names, as far as they are there and can be read for it, found as UrdfFiles finds them. The file
+/// is not parsed: one that is damaged may give some. Empty for documents of other formats, and for one that cannot be
+/// read or is larger than a URDF file gets. Throws nothing but std::bad_alloc.
+std::vector<std::filesystem::path> meshFilesNamedIn(const std::filesystem::path& document);
+
 /// A path, or why there is none.
 struct FoundFile {
   std::filesystem::path path;

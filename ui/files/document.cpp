@@ -18,6 +18,7 @@
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_tree.h"
 #include "ui/files/dropped_files.h"
+#include "ui/files/import_tessellation.h"
 #include "ui/files/recent_files.h"
 #include "ui/files/unit_dialog.h"
 #include "ui/widgets/names.h"
@@ -260,7 +261,7 @@ void Document::askAndOpen() {
 
 void Document::openScene(const QString& file) {
   if (isBusy() || !mayLeaveScene()) return;
-  loadScene(file, {}, kAnyUnit);
+  loadScene(file, {}, {kAnyUnit, {}});
 }
 
 bool Document::openExample(const QString& file) {
@@ -302,7 +303,7 @@ void Document::readScene(const QString& file, const QString& name,
   });
 }
 
-void Document::loadScene(const QString& file, const QStringList& partsAfter, double metresPerUnit) {
+void Document::loadScene(const QString& file, const QStringList& partsAfter, const PartReading& reading) {
   Preferences::rememberFolderOf(file);
   readScene(file, QFileInfo(file).fileName(), [=, this](Scene scene, const QStringList& changed) {
     // Meshes that changed make the scene differ from its file: it counts as modified.
@@ -313,7 +314,7 @@ void Document::loadScene(const QString& file, const QStringList& partsAfter, dou
     RecentFiles::remember(file);
     if (!partsAfter.isEmpty()) {
       emit sceneOpened();
-      addParts(partsAfter, metresPerUnit);
+      loadParts(partsAfter, reading, Target::OpenScene);
       return;
     }
     emit noted(tr("Opened %1").arg(QFileInfo(file).fileName()));
@@ -371,7 +372,7 @@ std::vector<PartGeometryPtr> Document::LoadedFiles::geometries() const {
   return all;
 }
 
-Document::LoadedFiles Document::loadFiles(const QStringList& files, double metresPerUnit,
+Document::LoadedFiles Document::loadFiles(const QStringList& files, const PartReading& reading,
                                           const ProgressCallback& progress) {
   LoadedFiles outcome;
   std::vector<MeshSource> meshes;
@@ -381,7 +382,7 @@ Document::LoadedFiles Document::loadFiles(const QStringList& files, double metre
     if (isDocumentFile(path))
       documents.push_back(path);
     else
-      meshes.push_back({path, metresPerUnit});
+      meshes.push_back({path, reading.metresPerUnit});
   }
   const double whole = static_cast<double>(files.size());
   double done = static_cast<double>(meshes.size());
@@ -395,8 +396,8 @@ Document::LoadedFiles Document::loadFiles(const QStringList& files, double metre
   }
   for (const std::filesystem::path& file : documents) {
     try {
-      outcome.documents.push_back(
-          loadDocument(file, metresPerUnit, {}, stageCallback(progress, done / whole, (done + 1.0) / whole)));
+      outcome.documents.push_back(loadDocument(file, reading.metresPerUnit, reading.tessellation,
+                                               stageCallback(progress, done / whole, (done + 1.0) / whole)));
     } catch (const Cancelled&) {
       throw;
     } catch (...) {
@@ -407,19 +408,20 @@ Document::LoadedFiles Document::loadFiles(const QStringList& files, double metre
   return outcome;
 }
 
-void Document::addParts(const QStringList& files, double metresPerUnit) {
-  loadParts(files, metresPerUnit, Target::OpenScene);
+void Document::addParts(const QStringList& files, double metresPerUnit,
+                        const std::optional<Tessellation>& tessellation) {
+  loadParts(files, {metresPerUnit, tessellation ? *tessellation : importTessellation()}, Target::OpenScene);
 }
 
-void Document::loadParts(const QStringList& files, double metresPerUnit, Target target) {
+void Document::loadParts(const QStringList& files, const PartReading& reading, Target target) {
   if (isBusy() || files.isEmpty()) return;
   Preferences::rememberFolderOf(files.first());
   auto outcome = std::make_shared<LoadedFiles>();
   const bool isAnyDocument =
       std::ranges::any_of(files, [](const QString& file) { return isDocumentFile(toPath(file)); });
   const Reading what = isAnyDocument ? Reading::Documents : Reading::Meshes;
-  const auto job = [outcome, files, metresPerUnit, what, shapes = shapes_](const ProgressCallback& progress) {
-    *outcome = loadFiles(files, metresPerUnit, progressOfReading(progress, what));
+  const auto job = [outcome, files, reading, what, shapes = shapes_](const ProgressCallback& progress) {
+    *outcome = loadFiles(files, reading, progressOfReading(progress, what));
     shapes->prepare(outcome->geometries(), progressOfShapes(progress, what));
   };
   const QString name =
@@ -500,14 +502,15 @@ void Document::finishParts(const QStringList& files, const LoadedFiles& loadedFi
   emit loaded(problems.isEmpty());
 }
 
-void Document::openFiles(const QStringList& filesAndFolders, std::optional<double> metresPerUnit) {
+void Document::openFiles(const QStringList& filesAndFolders, std::optional<double> metresPerUnit,
+                         const std::optional<Tessellation>& tessellation) {
   const DroppedFiles sorted = sortOut(filesAndFolders);
   const bool isLoadable = sorted.scenes.size() <= 1 && !sorted.isCutOff;
   if (!metresPerUnit && isLoadable && !sorted.meshes.isEmpty()) {
     metresPerUnit = unitOf(sorted.meshes, sorted.scenes.isEmpty() ? Target::OpenScene : Target::NewScene);
     if (!metresPerUnit) return emit loaded(false);
   }
-  open(sorted, metresPerUnit.value_or(kAnyUnit));
+  open(sorted, {metresPerUnit.value_or(kAnyUnit), tessellation ? *tessellation : importTessellation()});
 }
 
 void Document::openInPlace(const QStringList& filesAndFolders) {
@@ -519,7 +522,7 @@ void Document::openInPlace(const QStringList& filesAndFolders) {
   if (!mayLeaveScene()) return;
   const std::optional<double> unit = unitOf(sorted.meshes, Target::NewScene);
   if (!unit) return emit loaded(false);
-  loadParts(sorted.meshes, *unit, Target::NewScene);
+  loadParts(sorted.meshes, {*unit, importTessellation()}, Target::NewScene);
 }
 
 void Document::dropFiles(const QStringList& filesAndFolders) {
@@ -527,7 +530,7 @@ void Document::dropFiles(const QStringList& filesAndFolders) {
   openFiles(filesAndFolders);
 }
 
-void Document::open(const DroppedFiles& files, double metresPerUnit) {
+void Document::open(const DroppedFiles& files, const PartReading& reading) {
   if (files.isCutOff) {
     emit failed({tr("There are too many files."),
                  tr("These folders contain more than %1 meshes. Drop fewer at a time.").arg(kMaxInFolders)});
@@ -541,11 +544,11 @@ void Document::open(const DroppedFiles& files, double metresPerUnit) {
         {tr("Only one scene can be open."), tr("Choose one .nearfit file; you can add parts to it.")});
     emit loaded(false);
   } else if (files.scenes.size() == 1) {
-    if (!isBusy() && mayLeaveScene()) loadScene(files.scenes.first(), files.meshes, metresPerUnit);
+    if (!isBusy() && mayLeaveScene()) loadScene(files.scenes.first(), files.meshes, reading);
   } else if (files.meshes.isEmpty()) {
     emit loaded(false);
   } else {
-    addParts(files.meshes, metresPerUnit);
+    loadParts(files.meshes, reading, Target::OpenScene);
   }
 }
 

@@ -57,10 +57,14 @@ class Document : public SceneWork {
   void askAndAddParts();
   /// Loads mesh files as new parts, and CAD documents as parts and groups, in one step of undo. Does nothing while busy.
   /// @param metresPerUnit  Metres per unit of the numbers in files that store no unit.
-  void addParts(const QStringList& files, double metresPerUnit);
+  /// @param tessellation   Of documents; std::nullopt: as the user chose it last (importTessellation()).
+  void addParts(const QStringList& files, double metresPerUnit,
+                const std::optional<Tessellation>& tessellation = std::nullopt);
   /// Opens any mix of meshes, CAD documents, folders of these and at most one scene. The scene is opened first.
   /// @param metresPerUnit  Of all files that store no unit; std::nullopt: asks once, if there are any.
-  void openFiles(const QStringList& filesAndFolders, std::optional<double> metresPerUnit = std::nullopt);
+  /// @param tessellation   As for addParts(). A scene keeps that of its shapes.
+  void openFiles(const QStringList& filesAndFolders, std::optional<double> metresPerUnit = std::nullopt,
+                 const std::optional<Tessellation>& tessellation = std::nullopt);
   /// The same in place of the open scene, after asking about unsaved changes: without a scene among the files, those that
   /// can be read make up a new scene without a file. The open scene stays if none can, or if loading is cancelled. Does
   /// nothing while busy.
@@ -96,22 +100,27 @@ class Document : public SceneWork {
  private:
   /// Serves the calls that wait for hierarchies, unless busy.
   void prepareNext();
-  /// @param metresPerUnit  Unit of `partsAfter`, which are added once the scene is open.
-  void loadScene(const QString& file, const QStringList& partsAfter, double metresPerUnit);
+  /// How the files of parts are read.
+  struct PartReading {
+    double metresPerUnit;       ///< Of those that store no unit.
+    Tessellation tessellation;  ///< Of documents.
+  };
+  /// @param partsAfter  Added once the scene is open.
+  void loadScene(const QString& file, const QStringList& partsAfter, const PartReading& reading);
   /// Reads a scene and prepares its shapes.
   /// @param opened   Puts the scene into the session; gets the mesh files that have
   ///                 changed since it was saved.
   void readScene(const QString& file, const QString& name,
                  const std::function<void(Scene, const QStringList& changed)>& opened);
-  void open(const DroppedFiles& files, double metresPerUnit);
+  void open(const DroppedFiles& files, const PartReading& reading);
   bool saveTo(const QString& file);
   struct LoadedFiles;
   enum class Target { OpenScene, NewScene };
   /// Unit for the files that store none, which the user is asked for if there are any; std::nullopt: cancelled. Offers
   /// the one that was chosen last for their folder or else for their type, if there is any.
   std::optional<double> unitOf(const QStringList& files, Target target);
-  void loadParts(const QStringList& files, double metresPerUnit, Target target);
-  static LoadedFiles loadFiles(const QStringList& files, double metresPerUnit,
+  void loadParts(const QStringList& files, const PartReading& reading, Target target);
+  static LoadedFiles loadFiles(const QStringList& files, const PartReading& reading,
                                const ProgressCallback& progress);
   void tellWarnings(const LoadedFiles& files);
   void finishParts(const QStringList& files, const LoadedFiles& loadedFiles, Target target);

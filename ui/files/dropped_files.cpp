@@ -4,9 +4,12 @@
 #include <QFileInfo>
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include "core/import/companion_files.h"
 #include "core/import/document_import.h"
 #include "core/import/mesh_import.h"
 #include "ui/widgets/paths.h"
@@ -33,8 +36,9 @@ QStringList patternsOf(const std::vector<std::string>& extensions) {
   QStringList patterns;
   for (const std::string& extension : extensions) {
     const QString suffix = QString::fromStdString(extension);
-    patterns << QStringLiteral("*.") + suffix << QStringLiteral("*.") + suffix.toUpper()
-             << QStringLiteral("*.") + suffix + kPacked;
+    patterns << QStringLiteral("*.") + suffix << QStringLiteral("*.") + suffix.toUpper();
+    // Binary formats are refused so.
+    if (isMesh(QStringLiteral("a.") + suffix + kPacked)) patterns << QStringLiteral("*.") + suffix + kPacked;
   }
   return patterns;
 }
@@ -55,6 +59,28 @@ void addFolder(const QString& folder, DroppedFiles& dropped) {
   if (meshes.isEmpty() && scenes.isEmpty()) dropped.emptyFolders << folder;
 }
 
+/// The file without links on its way; empty if it is not there.
+std::filesystem::path realFile(const std::filesystem::path& file) {
+  std::error_code error;
+  return std::filesystem::canonical(file, error);
+}
+
+/// The files without the meshes that a URDF file among them brings: they came twice, and were asked the unit of.
+/// @param kept  Stay: the user has named them.
+QStringList withoutMeshesOfRobots(const QStringList& files, const QStringList& kept) {
+  std::set<std::filesystem::path> brought;
+  for (const QString& file : files)
+    for (const std::filesystem::path& mesh : meshFilesNamedIn(toPath(file)))
+      brought.insert(realFile(mesh));
+  // One that vanished meanwhile.
+  brought.erase(std::filesystem::path());
+  if (brought.empty()) return files;
+  QStringList left;
+  for (const QString& file : files)
+    if (kept.contains(file) || !brought.contains(realFile(toPath(file)))) left << file;
+  return left;
+}
+
 }  // namespace
 
 QStringList meshPatterns() {
@@ -73,6 +99,7 @@ DroppedFiles sortOut(const QStringList& filesAndFolders) {
     else
       (isScene(file) ? dropped.scenes : dropped.meshes) << file;
   }
+  dropped.meshes = withoutMeshesOfRobots(dropped.meshes, filesAndFolders);
   return dropped;
 }
 

@@ -2,12 +2,15 @@
 
 #include <QAction>
 #include <QMenu>
+#include <optional>
 #include <utility>
 
 #include "core/session/session.h"
 #include "ui/files/document.h"
+#include "ui/files/import_tessellation.h"
 #include "ui/files/part_files.h"
 #include "ui/files/recent_files.h"
+#include "ui/files/refine_dialog.h"
 #include "ui/model/hand_state.h"
 #include "ui/model/selection.h"
 #include "ui/view3d/viewport.h"
@@ -44,6 +47,10 @@ void FileCommands::makeActions() {
                         tr("Add meshes (STL, OBJ, PLY, OFF) and CAD documents (STEP, IGES, BREP, glTF, 3MF, "
                            "URDF) to the scene; you "
                            "can also drop files and folders on the window"));
+  importTriangles = makeAction(
+      this, "importTriangles", tr("Trian&gles of CAD files…"), {}, {},
+      tr("Choose how fine the triangles of CAD files are that you open or add from now on; at first it "
+         "suits the size of each shape"));
   save = makeAction(this, "save", tr("&Save"), QStringLiteral("save"), QKeySequence::Save,
                     tr("Save the scene and where its parts are"));
   saveAs = makeAction(this, "saveAs", tr("Save &as…"), QStringLiteral("save-as"),
@@ -58,6 +65,7 @@ void FileCommands::connectActions() {
   connect(open, &QAction::triggered, &document, &Document::askAndOpen);
   connect(openDemo, &QAction::triggered, this, &FileCommands::showDemo);
   connect(addParts, &QAction::triggered, &document, &Document::askAndAddParts);
+  connect(importTriangles, &QAction::triggered, this, &FileCommands::chooseTriangles);
   connect(save, &QAction::triggered, &document, &Document::save);
   connect(saveAs, &QAction::triggered, &document, &Document::askAndSaveAs);
   connect(quit, &QAction::triggered, window_, &QWidget::close);
@@ -97,6 +105,15 @@ void FileCommands::setUpPartFiles() {
   connect(parts_, &PartFiles::noted, this, &FileCommands::noted);
   connect(parts_, &PartFiles::rescaled, this, &FileCommands::showWhole);
   connect(parts_, &PartFiles::repaired, this, &FileCommands::repaired);
+}
+
+void FileCommands::chooseTriangles() {
+  const std::optional<Tessellation> chosen = askForImportTessellation(importTessellation(), window_);
+  if (!chosen) return;
+  setImportTessellation(*chosen);
+  emit noted(*chosen == Tessellation{}
+                 ? tr("Triangles of CAD files will suit the size of each shape")
+                 : tr("CAD files will have triangles of the chord and angle that you chose"));
 }
 
 void FileCommands::changeUnit(const std::vector<PartId>& parts) {

@@ -43,7 +43,7 @@ class FileCommands : public QObject {
   /// @param window  The parent; *Quit* closes it.
   FileCommands(const Context& context, QWidget* window);
 
-  QAction *newScene, *open, *openDemo, *addParts, *save, *saveAs, *quit;
+  QAction *newScene, *open, *openDemo, *addParts, *importTriangles, *save, *saveAs, *quit;
   QMenu* recentMenu;  ///< Scenes opened or saved last.
   QMenu* reloadMenu;  ///< Reads the files of parts again.
 
@@ -79,6 +79,8 @@ class FileCommands : public QObject {
   void connectDocument();
   void setUpRecentFiles();
   void setUpPartFiles();
+  /// Asks for the tessellation of documents that are added from now on.
+  void chooseTriangles();
   void showWhole();
   void showAdded(const std::vector<PartId>& parts);
   void update();

@@ -69,10 +69,18 @@ QString textOf(const Present& present) {
       .arg(listOfNames(present.names, kNamed), triangles);
 }
 
+/// What a dialog is for.
+struct TessellationWords {
+  QString name;  ///< Of the object.
+  QString title, text, automaticHelp, accept;
+};
+
 /// Chord and angle, or those that suit the size.
-class RefineDialog : public QDialog {
+class TessellationDialog : public QDialog {
  public:
-  RefineDialog(const Present& present, QWidget* parent);
+  /// @param asked, effective  As in Present.
+  TessellationDialog(const TessellationWords& words, const Tessellation& asked, const Tessellation& effective,
+                     QWidget* parent);
   Tessellation tessellation() const;
 
  private:
@@ -84,20 +92,20 @@ class RefineDialog : public QDialog {
   Tessellation present_, rounded_;
 };
 
-RefineDialog::RefineDialog(const Present& present, QWidget* parent)
+TessellationDialog::TessellationDialog(const TessellationWords& words, const Tessellation& asked,
+                                       const Tessellation& effective, QWidget* parent)
     : QDialog(parent),
       automatic_(new QCheckBox(QObject::tr("&Suited to the size of each shape"), this)),
       chord_(new NumberField(this)),
       angle_(new NumberField(this)) {
-  setObjectName(QStringLiteral("refineDialog"));
-  setWindowTitle(QObject::tr("Refine"));
-  auto* text = new QLabel(breakable(textOf(present)), this);
+  setObjectName(words.name);
+  setWindowTitle(words.title);
+  auto* text = new QLabel(breakable(words.text), this);
   text->setObjectName(QStringLiteral("refineText"));
   text->setTextFormat(Qt::PlainText);
   text->setWordWrap(true);
   automatic_->setObjectName(QStringLiteral("refineAutomatic"));
-  automatic_->setToolTip(
-      QObject::tr("Let the importer choose both from the size, as when the file was opened"));
+  automatic_->setToolTip(words.automaticHelp);
   chord_->setObjectName(QStringLiteral("refineChord"));
   chord_->setLength(4);
   chord_->setTrimmed(true);
@@ -110,10 +118,9 @@ RefineDialog::RefineDialog(const Present& present, QWidget* parent)
   angle_->setQuantityRange(kMinFacetAngle, kMaxFacetAngle);
   angle_->setQuantityStep(0.0175);
   angle_->setHelp(QObject::tr("Max angle between neighbouring facets of a surface. Smaller is finer"));
-  const Tessellation& effective = present.effective;
   chord_->showQuantity(effective.chord > 0.0 ? effective.chord : kUnknown.chord);
   angle_->showQuantity(effective.angle > 0.0 ? effective.angle : kUnknown.angle);
-  present_ = present.asked == Tessellation{} ? effective : present.asked;
+  present_ = asked == Tessellation{} ? effective : asked;
   rounded_ = {chord_->quantity(), angle_->quantity()};
   const auto setAutomatic = [this](bool isOn) {
     chord_->setEnabled(!isOn);
@@ -141,7 +148,7 @@ RefineDialog::RefineDialog(const Present& present, QWidget* parent)
   form->addRow(QObject::tr("&Angle"), angle_);
   form->addRow(QString(), steps);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
-  buttons->button(QDialogButtonBox::Ok)->setText(QObject::tr("Refine"));
+  buttons->button(QDialogButtonBox::Ok)->setText(words.accept);
   connect(buttons, &QDialogButtonBox::accepted, this, [this] {
     chord_->settle();
     angle_->settle();
@@ -155,17 +162,17 @@ RefineDialog::RefineDialog(const Present& present, QWidget* parent)
   layout->addLayout(form);
   layout->addWidget(buttons);
   setMinimumWidth(forFont(*this, 380));
-  automatic_->setChecked(present.asked == Tessellation{});
+  automatic_->setChecked(asked == Tessellation{});
   setAutomatic(automatic_->isChecked());
 }
 
-void RefineDialog::scale(double chordFactor, double angleFactor) {
+void TessellationDialog::scale(double chordFactor, double angleFactor) {
   automatic_->setChecked(false);
   chord_->showQuantity(std::clamp(chord_->quantity() * chordFactor, kMinChord, kMaxChord));
   angle_->showQuantity(std::clamp(angle_->quantity() * angleFactor, kMinFacetAngle, kMaxFacetAngle));
 }
 
-Tessellation RefineDialog::tessellation() const {
+Tessellation TessellationDialog::tessellation() const {
   if (automatic_->isChecked()) return {};
   // What was not touched has not changed by a rounding.
   Tessellation wanted{chord_->quantity(), angle_->quantity()};
@@ -178,7 +185,22 @@ Tessellation RefineDialog::tessellation() const {
 
 std::optional<Tessellation> askForTessellation(const Scene& scene, const Refinement& refinement,
                                                QWidget* parent) {
-  RefineDialog dialog(presentOf(scene, refinement), parent);
+  const Present present = presentOf(scene, refinement);
+  const TessellationWords words{
+      QStringLiteral("refineDialog"), QObject::tr("Refine"), textOf(present),
+      QObject::tr("Let the importer choose both from the size, as when the file was opened"),
+      QObject::tr("Refine")};
+  TessellationDialog dialog(words, present.asked, present.effective, parent);
+  return dialog.exec() == QDialog::Accepted ? std::optional(dialog.tessellation()) : std::nullopt;
+}
+
+std::optional<Tessellation> askForImportTessellation(const Tessellation& present, QWidget* parent) {
+  const TessellationWords words{
+      QStringLiteral("importTessellationDialog"), QObject::tr("Triangles of CAD files"),
+      QObject::tr("Triangles of exact surfaces in CAD files that you open or add from now on. Those in the "
+                  "scene stay as they are: “Refine…” changes them."),
+      QObject::tr("Let the importer choose both from the size"), QObject::tr("Use")};
+  TessellationDialog dialog(words, present, present, parent);
   return dialog.exec() == QDialog::Accepted ? std::optional(dialog.tessellation()) : std::nullopt;
 }
 

@@ -14,4 +14,8 @@ namespace nearfit::ui {
 std::optional<Tessellation> askForTessellation(const Scene& scene, const Refinement& refinement,
                                                QWidget* parent);
 
+/// Asks for the tessellation of documents that are added from now on. Shows the present one.
+/// @return std::nullopt if the user cancels.
+std::optional<Tessellation> askForImportTessellation(const Tessellation& present, QWidget* parent);
+
 }  // namespace nearfit::ui

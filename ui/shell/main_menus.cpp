@@ -79,7 +79,7 @@ void MainMenus::setUpFileMenu() {
   QMenu* menu = window_->menuBar()->addMenu(tr("&File"));
   menu->addActions({files.newScene, files.open});
   menu->addMenu(files.recentMenu);
-  menu->addActions({files.openDemo, menu->addSeparator(), files.addParts});
+  menu->addActions({files.openDemo, menu->addSeparator(), files.addParts, files.importTriangles});
   menu->addMenu(files.reloadMenu);
   menu->addActions({menu->addSeparator(), files.save, files.saveAs, commands_.exporter.exportAction(),
                     commands_.exporter.reportAction(), commands_.exporter.copyAction(),

@@ -160,6 +160,19 @@ TEST_F(DocumentsCommand, MinimaOfShapesAreFound) {
   EXPECT_EQ(importer_.runs(), 1);
 }
 
+TEST_F(DocumentsCommand, MinimaAreThoseOfTheTessellationThatIsGiven) {
+  const std::vector<std::string> arguments{
+      "lmd",     vise_ + "#body", vise_ + "#pin", "--cutoff", "0.015", "--pose", "0,0,0.045,1,0,0,0",
+      "--chord", "1e-6",          "--angle",      "9"};
+  EXPECT_NEAR(Json::parse(output(arguments))["lmds"][0]["distance"].get<double>(), 0.01, 1e-12);
+  ASSERT_EQ(importer_.runs(), 1);
+  EXPECT_EQ(importer_.asked()[0].tessellation.chord, 1e-6);
+  EXPECT_NEAR(importer_.asked()[0].tessellation.angle, 0.1570796326794897, 1e-15);
+  EXPECT_THAT(errorOf({"lmd", vise_ + "#body", vise_ + "#pin", "--cutoff", "0.015", "--pose",
+                       "0,0,0.045,1,0,0,0", "--chord", "1e-9"}),
+              HasSubstr("--chord: 1e-09 m is out of range"));
+}
+
 TEST_F(DocumentsCommand, RefiningOnePartTakesAllItsInstancesAlong) {
   output({"scene", "new", scene_, "--import", vise_});
   const Scene before = readSceneFile(scene_);

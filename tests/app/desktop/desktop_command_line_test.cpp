@@ -1,6 +1,7 @@
 #include <QFile>
 #include <QImage>
 #include <QProcess>
+#include <QRegularExpression>
 #include <filesystem>
 #include <set>
 
@@ -51,6 +52,8 @@ class DesktopCommandLineTest : public QObject {
  private slots:
   void helpAndVersionNeedNoDisplay();
   void unknownOptionIsAUsageError();
+  void aToleranceOutOfRangeIsAUsageError();
+  void startsWithoutOpenCascade();
   void unknownUnitIsAUsageError();
   void saysThatThereIsNoDisplay();
   void writesAPictureOfTheFilesAndEnds();
@@ -78,6 +81,28 @@ void DesktopCommandLineTest::unknownOptionIsAUsageError() {
   QVERIFY(outcome.err.startsWith(QStringLiteral("nearfit: ")));
   QVERIFY(outcome.err.contains(QStringLiteral("--frobnicate")));
   QCOMPARE(outcome.err.count(QLatin1Char('\n')), 1);
+}
+
+void DesktopCommandLineTest::aToleranceOutOfRangeIsAUsageError() {
+  for (const char* option : {"--chord", "--angle"}) {
+    const ProgramOutcome outcome =
+        run({QStringLiteral("a.step"), QLatin1String(option), QStringLiteral("1e9")}, withoutDisplay());
+    QCOMPARE(outcome.code, 2);
+    QVERIFY2(outcome.err.startsWith(QStringLiteral("nearfit: %1: ").arg(QLatin1String(option))),
+             qPrintable(outcome.err));
+    QCOMPARE(outcome.err.count(QLatin1Char('\n')), 1);
+  }
+}
+
+/// Only the programs that read and write CAD files are linked to it.
+void DesktopCommandLineTest::startsWithoutOpenCascade() {
+  QProcess ldd;
+  ldd.start(QStringLiteral("ldd"), {QStringLiteral(NEARFIT_DESKTOP)});
+  QVERIFY(ldd.waitForFinished(60'000));
+  QCOMPARE(ldd.exitCode(), 0);
+  const QString libraries = QString::fromLocal8Bit(ldd.readAllStandardOutput());
+  QVERIFY2(libraries.contains(QStringLiteral("libQt5Widgets")), qPrintable(libraries));
+  QVERIFY2(!libraries.contains(QRegularExpression(QStringLiteral("libTK[A-Z]"))), qPrintable(libraries));
 }
 
 void DesktopCommandLineTest::unknownUnitIsAUsageError() {

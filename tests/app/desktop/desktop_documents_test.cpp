@@ -2,19 +2,25 @@
 #include <QAction>
 #include <QPushButton>
 #include <QStatusBar>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <numbers>
+#include <optional>
 #include <thread>
+#include <variant>
 
+#include "app/desktop/command_line.h"
 #include "core/files/sha256.h"
 #include "core/scene/scene_tree.h"
 #include "tests/app/desktop/dialog_answers.h"
 #include "tests/app/desktop/file_drop.h"
 #include "tests/support/documents.h"
+#include "ui/files/import_tessellation.h"
 #include "ui/model/selection.h"
 #include "ui/widgets/number_field.h"
 
@@ -38,6 +44,31 @@ class DocumentDesk : public DesktopDriver {
   QString vise;
 };
 
+/// Answers the dialog for the triangles of documents that are added: its own chord, in millimetres, or automatic.
+DialogAnswers::Answer triangles(const char* chord) {
+  return [chord](QDialog& dialog) {
+    auto* automatic = dialog.findChild<QAbstractButton*>(QStringLiteral("refineAutomatic"));
+    if (automatic->isChecked() != (chord == nullptr)) {
+      automatic->setFocus();
+      QTest::keyClick(automatic, Qt::Key_Space);
+    }
+    if (chord != nullptr) {
+      auto* field = dialog.findChild<ui::NumberField*>(QStringLiteral("refineChord"));
+      field->setFocus();
+      field->selectAll();
+      QTest::keyClicks(field, QLatin1String(chord));
+      keepPictures(dialog, QStringLiteral("import-triangles"));
+    }
+    QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
+    return !dialog.isVisible();
+  };
+}
+
+template <std::size_t Count>
+std::variant<desktop::Options, int> parsedLine(const std::array<const char*, Count>& arguments) {
+  return desktop::parseCommandLine(static_cast<int>(Count), arguments.data());
+}
+
 }  // namespace
 
 class DesktopDocumentsTest : public QObject {
@@ -49,9 +80,15 @@ class DesktopDocumentsTest : public QObject {
   void partsThatCameTogetherShowTheirOwnColours();
   void itsUnitIsNotAskedFor();
   void filesWithoutAUnitBesideItAreAskedAboutWithKnownSizes();
+  void aDroppedRobotBringsItsMeshesOnceAndNobodyAsksForTheirUnit();
+  void compressedFilesAreOfferedWhereTheyAreRead();
   void itsUnitCannotBeChangedAndTheToolTipTellsTheReason();
   void aGltfInMillimetresIsPointedOutAndCorrectedAsAWhole();
   void a3mfThatStatesAWrongUnitIsCorrectedAsAWhole();
+  void itHasTheTrianglesThatWereChosenBeforeItWasAdded();
+  void theChoiceOfTrianglesIsKeptAndCanBeTakenBack();
+  void trianglesOfTheCommandLineGoBeforeTheChoice();
+  void anUnattendedRunDoesNotDependOnTheChoiceOfTriangles();
   void refiningAPartTakesItsInstancesAlongAndIsOneStep();
   void refiningSaysSoWithTheNameOfThePart();
   void finerAndCoarserScaleTheTolerances();
@@ -122,6 +159,63 @@ void DesktopDocumentsTest::filesWithoutAUnitBesideItAreAskedAboutWithKnownSizes(
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{7});
   QVERIFY(isNear(widthOf(d.part("fixed")), 0.04, 1e-12));
   QVERIFY(isNear(widthOf(d.part("body 2")), 0.1, 1e-12));
+}
+
+/// Each mesh was added a second time beside the robot, after a question for its unit.
+void DesktopDocumentsTest::aDroppedRobotBringsItsMeshesOnceAndNobodyAsksForTheirUnit() {
+  DocumentDesk d;
+  const std::filesystem::path robot = d.folder.path() / "robot";
+  std::filesystem::create_directories(robot / "meshes");
+  const QString arm = writeOff(robot / "meshes" / "arm.off", boxMesh(glm::dvec3(0.01)));
+  d.folder.write("robot/robot.urdf",
+                 R"(<robot name="r"><link name="l"><visual><geometry><mesh filename="meshes/arm.off"/>
+</geometry></visual></link></robot>)");
+  // The importer that stands in makes a vise of it. A question would hold it up.
+  drop(d.window(), {nameOf(robot)});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
+  QTRY_VERIFY(!d.window().document().isBusy());
+  QVERIFY(d.session().scene().findByName("arm") == nullptr);
+  d.choose("undo");
+  // Others beside it are added, and their unit is asked for.
+  writeOff(robot / "table.off", boxMesh(glm::dvec3(0.04)));
+  DialogAnswers answers;
+  QString asked;
+  answers.expect(QStringLiteral("unitDialog"), [&](QDialog& question) {
+    asked = question.findChild<QLabel*>(QStringLiteral("unitQuestion"))->text();
+    answerUnit(&question, "mm");
+    return true;
+  });
+  drop(d.window(), {nameOf(robot)});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{4});
+  QCOMPARE(answers.faults(), QStringList());
+  QVERIFY2(asked.contains(QStringLiteral("table.off")) && !asked.contains(QStringLiteral("arm.off")),
+           qPrintable(asked));
+  QVERIFY(d.session().scene().findByName("table") != nullptr);
+  QVERIFY(d.session().scene().findByName("arm") == nullptr);
+  // A mesh that the user chooses by itself is wanted.
+  QTRY_VERIFY(!d.window().document().isBusy());
+  d.window().document().openFiles({nameOf(robot), arm}, 1e-3);
+  QTRY_VERIFY(d.session().scene().findByName("arm") != nullptr);
+}
+
+/// Files were offered that are refused.
+void DesktopDocumentsTest::compressedFilesAreOfferedWhereTheyAreRead() {
+  DocumentDesk d;
+  QString filter;
+  DialogAnswers answers;
+  answers.expect(QStringLiteral("file"), [&](QDialog& dialog) {
+    filter = qobject_cast<QFileDialog*>(&dialog)->nameFilters().constFirst();
+    dialog.reject();
+    return true;
+  });
+  d.choose("addParts");
+  QCOMPARE(answers.faults(), QStringList());
+  for (const char* type : {"stl", "obj", "ply", "off", "step", "stp", "iges", "igs", "brep", "gltf", "urdf"})
+    QVERIFY2(filter.contains(QStringLiteral(" *.%1.gz").arg(QLatin1String(type))), qPrintable(filter));
+  for (const char* type : {"glb", "3mf"}) {
+    QVERIFY2(filter.contains(QStringLiteral(" *.%1 ").arg(QLatin1String(type))), qPrintable(filter));
+    QVERIFY2(!filter.contains(QStringLiteral("*.%1.gz").arg(QLatin1String(type))), qPrintable(filter));
+  }
 }
 
 void DesktopDocumentsTest::itsUnitCannotBeChangedAndTheToolTipTellsTheReason() {
@@ -223,6 +317,114 @@ void DesktopDocumentsTest::a3mfThatStatesAWrongUnitIsCorrectedAsAWhole() {
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
   QVERIFY(isNear(widthOf(d.part("near")), 0.1016, 1e-12));
   QVERIFY(isNear(d.part("near").geometry->unitOfNumbers(), 0.0254, 1e-15));
+}
+
+/// Its triangles could be chosen once it was there, which read it twice.
+void DesktopDocumentsTest::itHasTheTrianglesThatWereChosenBeforeItWasAdded() {
+  DocumentDesk d;
+  d.open();
+  const std::size_t usual = d.trianglesOf("pin");
+  QCOMPARE(d.part("pin").geometry->tessellation, Tessellation{});
+  d.choose("undo");
+  const std::size_t steps = d.session().historyIndex();
+  const QString importTriangles = QStringLiteral("importTessellationDialog");
+  DialogAnswers answers;
+  answers.expect(importTriangles, triangles("0.001"));
+  d.choose("importTriangles");
+  QCOMPARE(d.session().historyIndex(), steps);
+  QTRY_VERIFY(!d.window().document().isBusy());
+  answers.expectFile(d.vise);
+  d.choose("addParts");
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
+  QCOMPARE(answers.faults(), QStringList());
+  const auto isFine = [&d, usual](const char* pin) {
+    return isNear(d.part(pin).geometry->tessellation.chord, 1e-6, 1e-15) &&
+           isNear(d.part(pin).geometry->effectiveTessellation.chord, 1e-6, 1e-15) &&
+           d.trianglesOf(pin) > 4 * usual;
+  };
+  QVERIFY(isFine("pin") && isFine("pin 2"));
+  QVERIFY(isNear(d.importer.asked().back().tessellation.chord, 1e-6, 1e-15));
+  QCOMPARE(d.session().historyIndex(), steps + 1);
+  d.choose("undo");
+  QVERIFY(d.session().scene().parts().empty());
+  d.choose("redo");
+  QVERIFY(isFine("pin") && isFine("pin 2"));
+  // The scene keeps it, whatever is chosen later.
+  const std::filesystem::path file = d.folder.path() / "fine.nearfit";
+  d.session().save(file);
+  answers.expect(importTriangles, triangles(nullptr));
+  d.choose("importTriangles");
+  d.session().reset();
+  d.window().document().openScene(nameOf(file));
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
+  QCOMPARE(answers.faults(), QStringList());
+  QVERIFY(isFine("pin"));
+}
+
+void DesktopDocumentsTest::theChoiceOfTrianglesIsKeptAndCanBeTakenBack() {
+  const QString importTriangles = QStringLiteral("importTessellationDialog");
+  {
+    DocumentDesk d;
+    DialogAnswers answers;
+    answers.expect(importTriangles, triangles("0.5"));
+    d.choose("importTriangles");
+    QCOMPARE(answers.faults(), QStringList());
+  }
+  // The program is started again.
+  DocumentDesk d;
+  DialogAnswers answers;
+  double shown = 0.0;
+  bool isAutomatic = true;
+  answers.expect(importTriangles, [&](QDialog& dialog) {
+    shown = dialog.findChild<ui::NumberField*>(QStringLiteral("refineChord"))->quantity();
+    isAutomatic = dialog.findChild<QAbstractButton*>(QStringLiteral("refineAutomatic"))->isChecked();
+    QTest::keyClick(&dialog, Qt::Key_Escape);
+    return !dialog.isVisible();
+  });
+  d.choose("importTriangles");
+  QVERIFY(!isAutomatic && isNear(shown, 5e-4, 1e-12));
+  d.open();
+  QVERIFY(isNear(d.part("pin").geometry->tessellation.chord, 5e-4, 1e-12));
+  answers.expect(importTriangles, triangles(nullptr));
+  d.choose("importTriangles");
+  QCOMPARE(answers.faults(), QStringList());
+  drop(d.window(), {d.vise});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{6});
+  QCOMPARE(d.part("body 2").geometry->tessellation, Tessellation{});
+  QVERIFY(isNear(d.part("body").geometry->tessellation.chord, 5e-4, 1e-12));
+  // Someone has edited the settings.
+  for (const Tessellation wrong : {Tessellation{-1.0, 0.0}, Tessellation{0.0, 7.0}}) {
+    ui::setImportTessellation(wrong);
+    QCOMPARE(ui::importTessellation(), Tessellation{});
+  }
+}
+
+void DesktopDocumentsTest::trianglesOfTheCommandLineGoBeforeTheChoice() {
+  const std::array given{"nearfit", "a.step", "--chord", "2e-5", "--angle", "6"};
+  const auto options = std::get<desktop::Options>(parsedLine(given));
+  QVERIFY(options.tessellation.has_value());
+  QCOMPARE(options.tessellation->chord, 2e-5);
+  QVERIFY(isNear(options.tessellation->angle, std::numbers::pi / 30.0, 1e-12));
+  QVERIFY(!std::get<desktop::Options>(parsedLine(std::array{"nearfit", "a.step"})).tessellation);
+  for (const char* option : {"--chord", "--angle"}) {
+    const std::array wrong{"nearfit", "a.step", option, "-1"};
+    QCOMPARE(std::get<int>(parsedLine(wrong)), desktop::kUsageExitCode);
+    const std::array without{"nearfit", option, "1"};
+    QCOMPARE(std::get<int>(parsedLine(without)), desktop::kUsageExitCode);
+  }
+  ui::setImportTessellation({5e-4, 0.2});
+  DocumentDesk d;
+  d.application.show({d.vise}, false, std::nullopt, options.tessellation);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
+  QCOMPARE(d.part("pin").geometry->tessellation, *options.tessellation);
+  QCOMPARE(ui::importTessellation(), (Tessellation{5e-4, 0.2}));
+}
+
+void DesktopDocumentsTest::anUnattendedRunDoesNotDependOnTheChoiceOfTriangles() {
+  const std::array picture{"nearfit", "a.step", "--screenshot", "a.png"};
+  const std::array timed{"nearfit", "a.step", "--device", "replay:a.csv", "--seconds", "1"};
+  QCOMPARE(std::get<desktop::Options>(parsedLine(picture)).tessellation, std::optional(Tessellation{}));
+  QCOMPARE(std::get<desktop::Options>(parsedLine(timed)).tessellation, std::optional(Tessellation{}));
 }
 
 void DesktopDocumentsTest::refiningAPartTakesItsInstancesAlongAndIsOneStep() {

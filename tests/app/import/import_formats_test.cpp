@@ -513,6 +513,19 @@ TEST(ImportFormats, ThreeMfObjectWhoseTrianglesHaveOneColourIsAPartOfThatColour)
   }
 }
 
+/// tetrahedra.glb as text that holds its buffer.
+std::string gltfOfOneFile() {
+  const std::string glb = test::readBytes(importModel("tetrahedra.glb"));
+  std::uint32_t size = 0;
+  std::memcpy(&size, glb.data() + 12, sizeof(size));
+  nlohmann::json json = nlohmann::json::parse(glb.substr(20, size));
+  const TemporaryFolder folder;
+  const fs::path buffer = folder.write("buffer", glb.substr(28 + size));
+  json["buffers"][0]["uri"] =
+      "data:application/octet-stream;base64," + test::runProcess({"base64", "--wrap=0", buffer.string()}).out;
+  return json.dump();
+}
+
 /// A robot of a base with a mesh and an arm of primitives.
 std::string robot(const std::string& mesh) {
   return R"(<robot name="arm"><link name="base"><visual><origin xyz="0 0 1"/><geometry><mesh filename=")" +
@@ -770,6 +783,29 @@ TEST(ImportFormats, GzipIsUnpackedWithinABound) {
     const CadDocument plain = imported(importModel(name)), unpacked = imported(packed);
     EXPECT_EQ(unpacked.shapes.at(0).triangles, plain.shapes.at(0).triangles) << name;
     EXPECT_NE(unpacked.sha256, plain.sha256) << name;
+  }
+}
+
+TEST(ImportFormats, GzipOfGltfAndUrdfIsUnpacked) {
+  const Package package("package://arm_description/meshes/cube.stl");
+  const TemporaryFolder folder;
+  for (const fs::path& file : {folder.write("rack.gltf", gltfOfOneFile()), package.file()}) {
+    const CadDocument plain = imported(file);
+    ASSERT_EQ(test::runProcess({"gzip", "--keep", file.string()}).exitCode, 0);
+    const fs::path packed = file.string() + ".gz";
+    EXPECT_TRUE(isDocumentFile(packed));
+    const CadDocument unpacked = imported(packed);
+    ASSERT_FALSE(plain.shapes.empty());
+    ASSERT_EQ(unpacked.shapes.size(), plain.shapes.size()) << packed;
+    for (std::size_t i = 0; i < plain.shapes.size(); ++i) {
+      EXPECT_FALSE(plain.shapes[i].triangles.empty());
+      EXPECT_EQ(unpacked.shapes[i].vertices, plain.shapes[i].vertices) << packed;
+      EXPECT_EQ(unpacked.shapes[i].triangles, plain.shapes[i].triangles) << packed;
+    }
+    ASSERT_EQ(unpacked.nodes.size(), plain.nodes.size()) << packed;
+    for (std::size_t i = 0; i < plain.nodes.size(); ++i)
+      EXPECT_EQ(unpacked.nodes[i].name, plain.nodes[i].name) << packed;
+    EXPECT_EQ(unpacked.warnings, plain.warnings) << packed;
   }
 }
 
