@@ -9,33 +9,9 @@
 namespace nearfit::cli {
 namespace {
 
-/// Position of the first separator without a backslash before it; npos if there is none.
-std::size_t findUnescaped(const std::string& text, char separator) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\\') {
-      ++i;
-    } else if (text[i] == separator) {
-      return i;
-    }
-  }
-  return text.npos;
-}
-
-/// Parses "A:B".
 PairRule parsePairRule(const std::string& option, const std::string& text, PairRuleKind kind) {
-  const std::size_t colon = findUnescaped(text, ':');
-  if (colon == text.npos)
-    throw UsageError(
-        option, fmt::format("\"{}\" does not name two parts", text),
-        "give A:B, names or patterns with * and ?; a backslash takes the next character as it is");
-  PairRule rule{kind, text.substr(0, colon), text.substr(colon + 1)};
-  try {
-    checkPattern(rule.part);
-    checkPattern(rule.other);
-  } catch (const UsageError& e) {
-    throw UsageError(option, fmt::format("\"{}\": {}", text, e.problem()), e.remedy());
-  }
-  return rule;
+  const NamePair names = parseNamePair(option, text);
+  return {kind, names.part, names.other};
 }
 
 /// Parses "A:B=0.02mm".
@@ -82,6 +58,33 @@ std::vector<PairRule> rulesOf(const RuleOptions& options) {
   for (const std::string& text : options.pressFit)
     rules.push_back(parsePressFit(text));
   return rules;
+}
+
+std::size_t findUnescaped(const std::string& text, char separator, std::size_t from) {
+  for (std::size_t i = from; i < text.size(); ++i) {
+    if (text[i] == '\\') {
+      ++i;
+    } else if (text[i] == separator) {
+      return i;
+    }
+  }
+  return text.npos;
+}
+
+NamePair parseNamePair(const std::string& option, const std::string& text) {
+  const std::size_t colon = findUnescaped(text, ':');
+  if (colon == text.npos)
+    throw UsageError(
+        option, fmt::format("\"{}\" does not name two parts", text),
+        "give A:B, names or patterns with * and ?; a backslash takes the next character as it is");
+  NamePair names{text.substr(0, colon), text.substr(colon + 1)};
+  try {
+    checkPattern(names.part);
+    checkPattern(names.other);
+  } catch (const UsageError& e) {
+    throw UsageError(option, fmt::format("\"{}\": {}", text, e.problem()), e.remedy());
+  }
+  return names;
 }
 
 }  // namespace nearfit::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,16 @@ void addRuleOptions(CLI::App& command, RuleOptions& options, CLI::Option* needed
 
 /// The rules, by kind in the order above, and as written within a kind. Throws UsageError, which names the option.
 std::vector<PairRule> rulesOf(const RuleOptions& options);
+
+/// Patterns for the names of two parts.
+struct NamePair {
+  std::string part, other;
+};
+
+/// Position of the first separator at or after `from` without a backslash before it; npos if there is none.
+std::size_t findUnescaped(const std::string& text, char separator, std::size_t from = 0);
+
+/// Parses "A:B". Throws UsageError, which names the option.
+NamePair parseNamePair(const std::string& option, const std::string& text);
 
 }  // namespace nearfit::cli

@@ -45,6 +45,11 @@ void checkCheckOutputs(const std::filesystem::path& sceneFile, const Scene& scen
   }
 }
 
+/// File of an option; stdout if it was given without one.
+std::string checkTargetOf(const CLI::Option* option, const std::string& file) {
+  return option != nullptr && !option->empty() && file.empty() ? std::string(kStdout) : file;
+}
+
 void writeTo(const std::string& target, const std::string& text) {
   if (target == kStdout) {
     print(text);
@@ -62,11 +67,16 @@ void addSceneCheckOptions(CLI::App& command, CLI::Option& all,
                   "With --all: find pairs no farther apart [m, or with a unit]; default: the scene's cutoff")
       ->type_name("D")
       ->needs(&all);
-  command.add_option("--json", options->json, "With --all: write all findings as JSON; - for stdout")
-      ->type_name("FILE")
-      ->needs(&all);
-  command.add_option("--csv", options->csv, "With --all: write the findings as CSV; - for stdout")
-      ->type_name("FILE")
+  options->jsonOption = command.add_option(
+      "--json", options->json, "With --all: write all findings as JSON; without a file, or to -, on stdout");
+  options->csvOption = command.add_option(
+      "--csv", options->csv, "With --all: write the findings as CSV; without a file, or to -, on stdout");
+  for (CLI::Option* option : {options->jsonOption, options->csvOption})
+    option->type_name("[FILE]")->expected(0, 1)->needs(&all);
+  command
+      .add_option("--minima", options->minima,
+                  "With --all: minima to keep of a pair, the nearest; 0: all; default: 100")
+      ->type_name("N")
       ->needs(&all);
   addRuleOptions(command, options->rules, &all, "With --all: ");
   command
@@ -75,7 +85,10 @@ void addSceneCheckOptions(CLI::App& command, CLI::Option& all,
       ->needs(&all);
 }
 
-void runSceneCheck(const std::string& sceneFile, const SceneCheckOptions& options) {
+void runSceneCheck(const std::string& sceneFile, const SceneCheckOptions& given) {
+  SceneCheckOptions options = given;
+  options.json = checkTargetOf(given.jsonOption, given.json);
+  options.csv = checkTargetOf(given.csvOption, given.csv);
   const InterruptGuard interrupt;
   std::optional<SceneCheck> check;
   Scene scene;
@@ -92,6 +105,7 @@ void runSceneCheck(const std::string& sceneFile, const SceneCheckOptions& option
     if (!options.threshold.empty()) request.threshold = parseLength("--threshold", options.threshold);
     checkPositive("--threshold", request.threshold, true);
     request.rules = rulesFor(scene, options);
+    request.maxMinima = options.minima.value_or(request.maxMinima);
     check = checkScene(request, checking);
   }
   const std::vector<ComparedFinding> compared = compareFindings(*check, scene.pairRecords());

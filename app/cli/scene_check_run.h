@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/cli/rule_options.h"
@@ -15,6 +17,8 @@ namespace nearfit::cli {
 /// Options of `clearance --all`.
 struct SceneCheckOptions {
   std::string threshold, json, csv;
+  CLI::Option *jsonOption = nullptr, *csvOption = nullptr;  ///< Given without a file they mean stdout.
+  std::optional<std::size_t> minima;
   RuleOptions rules;
   bool isSaved = false;  ///< The findings are kept with the scene.
 };

@@ -16,6 +16,7 @@
 #include "app/cli/document_options.h"
 #include "app/cli/haptic_options.h"
 #include "app/cli/output.h"
+#include "app/cli/scene_finding_command.h"
 #include "app/cli/scene_joints_command.h"
 #include "app/cli/scene_part.h"
 #include "app/cli/scene_refine_command.h"
@@ -238,6 +239,7 @@ void addSceneCommand(CLI::App& program) {
   addSceneRelease(*scene);
   addSceneRefine(*scene);
   addSceneRule(*scene);
+  addSceneFinding(*scene);
 }
 
 }  // namespace nearfit::cli

@@ -15,6 +15,8 @@
 #include "app/cli/scene_part.h"
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
+#include "core/files/sha256.h"
+#include "core/path/certificate.h"
 #include "core/path/path_file.h"
 #include "core/path/path_search.h"
 #include "core/scene/drawn_pose.h"
@@ -25,7 +27,7 @@ namespace nearfit::cli {
 namespace {
 
 struct SuggestOptions {
-  std::string scene, part, group, to, out;
+  std::string scene, part, group, to, out, certificate;
   bool isToDrawn = false, isOut = false, isJson = false, isWithoutTurns = false;
   std::optional<double> separation;
   double seconds = 30.0;
@@ -38,9 +40,10 @@ constexpr const char* kSuggestFooter =
     "where\n"
     "the coordinates of its mesh file are; of a group, the part that leads it. --out: until the box of what\n"
     "moves is clear of the box of all others. Joints do not hold what moves.\n"
-    "The path keeps the separation everywhere between its poses, which is proven; certify makes a "
-    "certificate\n"
-    "of that. Exit code 3 if none was found, which does not mean that there is none; what was tried is "
+    "The path keeps the separation everywhere between its poses, which is proven; --certificate writes the "
+    "proof,\n"
+    "as certify does, for verify. Exit code 3 if none was found, which does not mean that there is none; "
+    "what was tried is "
     "printed.\n"
     "The same seed gives the same path if --motions ends the search and not its time.\n"
     "Example: nearfit-cli suggest fit.nearfit --part Peg --out --seconds 60 -o out.nfpath";
@@ -52,6 +55,17 @@ void checkSuggestOptions(const SuggestOptions& options) {
                      "give one of --to-drawn, --out and --to");
   checkPositive("--seconds", options.seconds);
   if (options.separation) checkPositive("--separation", *options.separation);
+}
+
+/// Throws UsageError if an output would replace an input or the other output.
+void checkSuggestTargets(const SuggestOptions& options, const Scene& scene) {
+  std::vector<std::filesystem::path> inputs = partFiles(scene);
+  inputs.emplace_back(options.scene);
+  checkTarget(options.out, inputs);
+  if (options.certificate.empty()) return;
+  checkTarget(options.certificate, inputs);
+  if (isSameTarget(options.certificate, options.out))
+    throw UsageError("--certificate", "it is where the path goes", "name another file");
 }
 
 PathGoal goalOf(const SuggestOptions& options, const Scene& scene) {
@@ -85,10 +99,10 @@ nlohmann::ordered_json suggestJson(const Scene& scene, const PathGoal& goal, con
 
 void runSuggest(const SuggestOptions& options) {
   checkSuggestOptions(options);
+  // Of the file as it was before it is read, so that a change meanwhile is found.
+  const std::string sceneSha256 = options.certificate.empty() ? std::string() : sha256OfFile(options.scene);
   const Scene scene = withInHand(readSceneFile(options.scene), options.part, options.group, options.scene);
-  std::vector<std::filesystem::path> inputs = partFiles(scene);
-  inputs.emplace_back(options.scene);
-  checkTarget(options.out, inputs);
+  checkSuggestTargets(options, scene);
   const PathGoal goal = goalOf(options, scene);
   PathSearchOptions search;
   search.separation = options.separation.value_or(0.0);
@@ -97,7 +111,12 @@ void runSuggest(const SuggestOptions& options) {
   if (options.motions) search.maxMotions = *options.motions;
   search.mayTurn = !options.isWithoutTurns;
   const PathSearchResult result = searchPath(scene, goal, search);
-  if (result.end == PathSearchEnd::Found) writePathFile(result.path, options.out);
+  if (result.end == PathSearchEnd::Found) {
+    writePathFile(result.path, options.out);
+    if (!options.certificate.empty())
+      atomicWrite(options.certificate,
+                  certificateText(certificateOf(scene, result.path, result.proof, sceneSha256)));
+  }
   printCacheWarnings();
   const auto length = [](double metres) { return fmt::format("{:.6g} m", metres); };
   if (options.isJson) {
@@ -118,6 +137,8 @@ void addSuggestCommand(CLI::App& program) {
   command->add_option("-o,--out-path", options->out, "Path file to write")
       ->required()
       ->type_name("OUT.nfpath");
+  command->add_option("--certificate", options->certificate, "Also write the certificate of the path")
+      ->type_name("FILE.nfcert");
   command->add_option("--part", options->part, "Part that moves; default: what the scene has in hand")
       ->type_name("NAME");
   command->add_option("--group", options->group, "Group that moves as one")->type_name("NAME");
@@ -126,7 +147,7 @@ void addSuggestCommand(CLI::App& program) {
   command->add_option("--to", options->to, std::string("To a pose: ") + kPoseHelp)->type_name("POSE");
   command->add_option("--separation", options->separation,
                       "Distance to keep [m]; default: a millionth of the part, at most 1 um");
-  command->add_option("--seconds", options->seconds, "Time of the search [s]; shortening may add half of it")
+  command->add_option("--seconds", options->seconds, "Time of the search, with making the path shorter [s]")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of the random search")->capture_default_str();
   command->add_option("--motions", options->motions, "Motions that each thread of the search tries at most");

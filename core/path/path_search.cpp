@@ -32,7 +32,7 @@ namespace {
 
 /// Share of the progress that building hierarchies takes.
 constexpr double kPrepared = 0.05;
-/// Share of the search's time that shortening may add.
+/// Most of the search's time that shortening takes, as a share, where a path was found early enough to leave it.
 constexpr double kShorteningTime = 0.5;
 /// Gap of the boxes at which what moves is out, in radii: enough to see.
 constexpr double kOutGap = 0.05;
@@ -51,16 +51,22 @@ constexpr double kThere = 1e-9;
 /// Time between two reports of the progress [s].
 constexpr double kReportEvery = 0.05;
 
+double steadySeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 /// Time of a search, its progress, and whether the user has cancelled it. Thread-safe.
 class SearchClock {
  public:
-  SearchClock(double seconds, const ProgressCallback& progress) : seconds_(seconds), progress_(progress) {}
+  SearchClock(double seconds, const std::function<double()>& now, const ProgressCallback& progress)
+      : seconds_(seconds), now_(now ? now : std::function<double()>(steadySeconds)), progress_(progress) {}
 
-  double elapsed() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
+  double elapsed() const { return now_() - begin_; }
   /// True if the time is over, or the search is cancelled.
-  bool isOver() { return isOverAfter(seconds_); }
+  bool isOver() {
+    if (!isOver_ && isOverAfter(seconds_)) isOver_ = true;
+    return isOver_;
+  }
   bool isOverAfter(double seconds) {
     report();
     return isCancelled_ || elapsed() >= seconds;
@@ -78,12 +84,13 @@ class SearchClock {
     if (!progress_(kPrepared + (1.0 - kPrepared) * std::min(1.0, reported_ / seconds_))) isCancelled_ = true;
   }
 
-  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   const double seconds_;
+  const std::function<double()> now_;
   const ProgressCallback& progress_;
+  const double begin_ = now_();
   std::mutex mutex_;
   double reported_ = 0.0;  ///< Guarded by the mutex.
-  std::atomic<bool> isCancelled_{false};
+  std::atomic<bool> isCancelled_{false}, isOver_{false};
 };
 
 Aabb boxOfOthers(const PathBodies& bodies) {
@@ -162,7 +169,7 @@ class PathSearch {
         separation_(options.separation > 0.0 ? options.separation : defaultSeparation(scene, frame_)),
         certifier_(scene, frame_, separation_, stageCallback(progress, 0.0, kPrepared)),
         space_{bodies_, certifier_, frame_.centre, separation_, options.mayTurn},
-        clock_(options.seconds, progress),
+        clock_(options.seconds, options.now, progress),
         others_(boxOfOthers(bodies_)),
         gap_(std::max(kOutGap * certifier_.radius(), 2.0 * separation_)),
         start_(centrePose(bodies_.worldFromLead.normalized(), frame_.centre)) {
@@ -435,7 +442,7 @@ class PathSearch {
     return plans[best].plan.way;
   }
 
-  /// Makes a path of a way, shortens it, and proves it.
+  /// Makes a path of a way, proves it, and shortens it in the time that is left.
   void finish(const PoseWay& way) {
     std::vector<RigidTransform> poses;
     for (const RigidTransform& pose : way)
@@ -444,18 +451,32 @@ class PathSearch {
     poses.front() = bodies_.worldFromLead.normalized();
     if (end_) poses.back() = checkedPose(*goal_.pose);
     const AssemblyPath found = timedPath(frame_, poses, certifier_.radius());
-    const double until = clock_.elapsed() + kShorteningTime * options_.seconds;
+    const double begin = clock_.elapsed();
+    keepIfFree(found, certifier_.prove(found));
+    if (found.poses.size() > 2) shorten(found, clock_.elapsed() - begin);
+  }
+
+  /// @param proving  Time that the proof of the path took: that of a shorter one takes no longer [s].
+  void shorten(const AssemblyPath& found, double proving) {
+    const double now = clock_.elapsed();
+    const double until = std::min(now + kShorteningTime * options_.seconds, options_.seconds - proving);
+    if (now >= until) return;
     const AssemblyPath shorter =
         shortenedPath(found, certifier_, options_.seed, [&] { return clock_.isOverAfter(until); });
     clock_.throwIfCancelled();
-    for (const AssemblyPath& path : {shorter, found}) {
-      PathProof proof = certifier_.prove(path);
-      if (!proof.isFree()) continue;
-      result_.end = PathSearchEnd::Found;
-      result_.path = path;
-      result_.proof = std::move(proof);
-      return;
+    try {
+      keepIfFree(shorter, certifier_.prove(shorter, [this](double) { return !clock_.isOver(); }));
+    } catch (const Cancelled&) {
+      // Either by the user, or the time is over and the path stays as it was found.
+      clock_.throwIfCancelled();
     }
+  }
+
+  void keepIfFree(const AssemblyPath& path, PathProof proof) {
+    if (!proof.isFree()) return;
+    result_.end = PathSearchEnd::Found;
+    result_.path = path;
+    result_.proof = std::move(proof);
   }
 
   PathSearchResult finished() {

@@ -24,11 +24,15 @@ struct PathGoal {
 /// Limits of a search.
 struct PathSearchOptions {
   double separation = 0.0;  ///< To keep from all other visible parts [m]; 0: defaultSeparation().
-  double seconds = 30.0;    ///< For the search; shortening may add half of it. > 0.
+  /// For search and shortening together; > 0. What is made of the parts before, where the cache does not have it, and the
+  /// check of a motion that has begun come on top.
+  double seconds = 30.0;
   std::uint64_t seed = 1;
   /// Motions that each thread of the search tries; the result depends on this limit and the seed alone if the time lasts.
   std::uint64_t maxMotions = std::numeric_limits<std::uint64_t>::max();
   bool mayTurn = true;  ///< False: what moves is only shifted.
+  /// Tells the time since any moment [s], to several threads; empty: the system's steady clock.
+  std::function<double()> now = {};
 };
 
 /// Max time of a search [s]: a day.
@@ -72,8 +76,8 @@ struct PathSearchResult {
 ///
 /// First straight motions are tried, then motions along which it probably comes apart (across what it touches, along its
 /// axes), sliding along what is in the way; then two planners search poses at random, each in a thread. A path that is
-/// found is shortened where shorter motions are proven free. Takes the start as it is: parts that touch have to be moved
-/// apart first, by the separation.
+/// found is shortened where shorter motions are proven free, in half of the time at most and in what is left of it. Takes
+/// the start as it is: parts that touch have to be moved apart first, by the separation.
 /// Throws UsageError if nothing is in hand, an option is not valid, it is at the goal already, or as PathCertifier;
 /// Cancelled. May take seconds: not for the GUI thread.
 PathSearchResult searchPath(const Scene& scene, const PathGoal& goal, const PathSearchOptions& options,

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/error.h"
 #include "core/path/path_thinning.h"
 #include "core/planning/pose_sampler.h"
 
@@ -73,8 +74,9 @@ std::vector<RigidTransform> posesWith(const AssemblyPath& path, const Shortcut& 
   return poses;
 }
 
-/// The best of some random shortcuts that are proven free; no gain if none is.
-Shortcut bestShortcut(const AssemblyPath& path, const PathCertifier& certifier, PoseSampler& sampler) {
+/// The best of some random shortcuts that are proven free; no gain if none is. Throws Cancelled.
+Shortcut bestShortcut(const AssemblyPath& path, const PathCertifier& certifier, PoseSampler& sampler,
+                      const ProgressCallback& goOn) {
   const double radius = certifier.radius();
   const std::vector<double> lengths = lengthsOf(path, radius);
   std::vector<Shortcut> shortcuts;
@@ -85,7 +87,7 @@ Shortcut bestShortcut(const AssemblyPath& path, const PathCertifier& certifier, 
     shortcuts.push_back(shortcut);
     segments.push_back({poseAt(path, shortcut.from), poseAt(path, shortcut.to)});
   }
-  const std::vector<char> isFree = certifier.freeSegments(segments, {}, kMaxShortcutDistances);
+  const std::vector<char> isFree = certifier.freeSegments(segments, goOn, kMaxShortcutDistances);
   Shortcut best;
   for (std::size_t i = 0; i < shortcuts.size(); ++i) {
     if (isFree[i] != 0 && shortcuts[i].gain > best.gain) best = shortcuts[i];
@@ -127,15 +129,22 @@ AssemblyPath shortenedPath(const AssemblyPath& path, const PathCertifier& certif
       poses.push_back(pose.worldFromLead);
     return poses;
   };
-  AssemblyPath best = thinned(path, certifier, kAnyDeviation * radius).path;
-  PoseSampler sampler(seed);
-  for (int round = 0; round < kShortcutRounds && best.poses.size() > 2 && !isOver(); ++round) {
+  const ProgressCallback goOn = [&isOver](double) { return !isOver(); };
+  AssemblyPath best = path;
+  try {
+    best = thinned(path, certifier, kAnyDeviation * radius, goOn).path;
+    PoseSampler sampler(seed);
+    for (int round = 0; round < kShortcutRounds && best.poses.size() > 2 && !isOver(); ++round) {
+      best = timedPath(best, posesOf(best), radius);
+      const Shortcut shortcut = bestShortcut(best, certifier, sampler, goOn);
+      if (shortcut.gain > 0.0) best = timedPath(best, posesWith(best, shortcut), radius);
+    }
     best = timedPath(best, posesOf(best), radius);
-    const Shortcut shortcut = bestShortcut(best, certifier, sampler);
-    if (shortcut.gain > 0.0) best = timedPath(best, posesWith(best, shortcut), radius);
+    if (best.poses.size() > 2) best = thinned(best, certifier, kUnseenDeviation * radius, goOn).path;
+  } catch (const Cancelled&) {
+    return best;
   }
-  best = timedPath(best, posesOf(best), radius);
-  return best.poses.size() > 2 ? thinned(best, certifier, kUnseenDeviation * radius).path : best;
+  return best;
 }
 
 }  // namespace nearfit

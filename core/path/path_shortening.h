@@ -20,8 +20,7 @@ AssemblyPath timedPath(const AssemblyPath& frame, const std::vector<RigidTransfo
 /// motions, each only if it is proven free and shorter. Other motions stay as they are. Deterministic for a seed, apart
 /// from the limit.
 /// @param certifier  Of the same parts and centre.
-/// @param isOver     True to stop with what was reached.
-/// Throws Cancelled if a change of the path is cancelled, as the progress of thinned().
+/// @param isOver     True to stop with what was reached, also amid a proof. Asked by several threads, one at a time.
 AssemblyPath shortenedPath(const AssemblyPath& path, const PathCertifier& certifier, std::uint64_t seed,
                            const std::function<bool()>& isOver);
 

@@ -121,6 +121,10 @@ class Scene {
   /// Sets all records, in any order. Throws UsageError like checkPairRecord(), or if there are more than kMaxPairRecords,
   /// two of one pair, or one of an unknown part.
   void setPairRecords(std::vector<PairRecord> records);
+  /// Sets what the user says about findings. Throws UsageError if one of the pairs has no record, or like
+  /// checkPairRecord().
+  /// @param reason  Why they are accepted; else may be empty.
+  void setFindingState(const std::vector<PartPair>& pairs, FindingState state, const std::string& reason);
 
   /// True if it, or a group that contains it at any depth, is locked.
   bool isLocked(const Part& part) const noexcept;

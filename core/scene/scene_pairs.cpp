@@ -48,6 +48,19 @@ void Scene::setPairRecords(std::vector<PairRecord> records) {
   pairRecords_ = std::make_shared<const std::vector<PairRecord>>(std::move(records));
 }
 
+void Scene::setFindingState(const std::vector<PartPair>& pairs, FindingState state,
+                            const std::string& reason) {
+  std::vector<PairRecord> records = pairRecords();
+  for (const PartPair& pair : pairs) {
+    const auto it = std::ranges::lower_bound(records, pair, {}, &PairRecord::pair);
+    if (it == records.end() || it->pair != pair)
+      throw UsageError("finding", "the last check found nothing for these parts", "check the scene again");
+    it->state = state;
+    it->reason = reason;
+  }
+  setPairRecords(std::move(records));
+}
+
 void Scene::dropRecordsOf(PartId id) {
   const auto isOfIt = [id](const PairRecord& record) {
     return record.pair.part == id || record.pair.other == id;

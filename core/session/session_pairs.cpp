@@ -1,10 +1,8 @@
 // Commands about checks of the scene.
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "core/base/error.h"
 #include "core/session/session.h"
 
 namespace nearfit {
@@ -28,17 +26,9 @@ void Session::setPairRecords(const std::vector<PairRecord>& records) {
 
 void Session::setFindingState(const std::vector<PartPair>& pairs, FindingState state,
                               const std::string& reason) {
-  std::vector<PairRecord> records = scene().pairRecords();
-  for (const PartPair& pair : pairs) {
-    const auto it = std::ranges::lower_bound(records, pair, {}, &PairRecord::pair);
-    if (it == records.end() || it->pair != pair)
-      throw UsageError("finding", "the last check found nothing for these parts", "check the scene again");
-    it->state = state;
-    it->reason = reason;
-  }
-  if (records == scene().pairRecords()) return;
   Scene next = scene();
-  next.setPairRecords(std::move(records));
+  next.setFindingState(pairs, state, reason);
+  if (next.pairRecords() == scene().pairRecords()) return;
   const char* verb = state == FindingState::Accepted ? "Accept"
                      : state == FindingState::Fixed  ? "Mark as fixed"
                                                      : "Reopen";

@@ -106,7 +106,9 @@ class SceneChecker {
       : request_(request),
         progress_(progress),
         rules_(request.rules, ruledParts(request)),
-        works_([maxMinima = request.maxMinima] { return std::make_unique<CheckWork>(maxMinima); }) {
+        works_([maxMinima = request.maxMinima > 0 ? request.maxMinima : kMostMinima] {
+          return std::make_unique<CheckWork>(maxMinima);
+        }) {
     if (!std::isfinite(request.threshold) || request.threshold < 0.0)
       throw UsageError("check", fmt::format("{} m is not a valid threshold", request.threshold),
                        "give a length of at least 0");

@@ -17,6 +17,10 @@
 
 namespace nearfit {
 
+/// Max minima of a pair where all are asked for: far more than anyone looks at, and the work space stays within some
+/// gigabytes.
+constexpr std::size_t kMostMinima = 1'000'000;
+
 /// A part where it is checked.
 struct CheckedPart {
   PartId id{};
@@ -30,7 +34,9 @@ struct SceneCheckRequest {
   std::vector<CheckedPart> parts;  ///< In ascending order of ID.
   double threshold = 0.0;          ///< Pairs no farther apart are found [m]; finite, >= 0.
   std::vector<PairRule> rules;
-  std::size_t maxMinima = 100;  ///< Max minima kept of a pair, the nearest.
+  /// Max minima kept of a pair, the nearest; 0: all, up to kMostMinima. A thread that finds many takes some 3 kB for each
+  /// that its largest pair has, and each that is kept takes 64 bytes.
+  std::size_t maxMinima = 100;
   /// Triangles of two parts beyond which the volume that they share is not computed; 0: no volumes.
   std::size_t maxVolumeTriangles = 1'000'000;
   bool hasDepths = true;       ///< Find depths of clashes.

@@ -95,7 +95,9 @@ void putSettings(ReportPageWriter& page, const FitReportRequest& request, const 
   const SceneCheckRequest& check = request.check;
   page.element("dl", [&] {
     page.term("Threshold", [&] { page.putLength(check.threshold); });
-    page.textTerm("Minima", fmt::format("up to {} of a pair, the nearest", check.maxMinima));
+    page.textTerm("Minima", check.maxMinima == 0
+                                ? std::string("all of a pair")
+                                : fmt::format("up to {} of a pair, the nearest", check.maxMinima));
     page.textTerm("Volumes", check.maxVolumeTriangles == 0
                                  ? std::string("not computed")
                                  : fmt::format("of pairs of up to {} triangles", check.maxVolumeTriangles));

@@ -62,6 +62,45 @@ TEST_F(ClearanceAll, JsonAndCsvSayWhatWasFound) {
   EXPECT_THAT(readBytes(path("check.csv")), HasSubstr("Plate,Cube,clash,0,"));
 }
 
+TEST_F(ClearanceAll, JsonAndCsvWithoutAFileGoToStdout) {
+  const auto json = check(scene_, {"--json", "--threshold", "1.5"});
+  EXPECT_EQ(json.exitCode, 0) << json.err;
+  EXPECT_EQ(json.out, check(scene_, {"--json", "-", "--threshold", "1.5"}).out);
+  EXPECT_EQ(Json::parse(json.out)["findings"].size(), 1U);
+  const auto csv = check(scene_, {"--threshold", "1.5", "--csv"});
+  EXPECT_EQ(csv.exitCode, 0) << csv.err;
+  EXPECT_THAT(csv.out, HasSubstr("Plate,Cube,near,"));
+  EXPECT_EQ(csv.out, check(scene_, {"--threshold", "1.5", "--csv", "-"}).out);
+  EXPECT_EQ(check(scene_, {"--json", path("both.json"), "--csv"}).out, check(scene_, {"--csv"}).out);
+}
+
+TEST_F(ClearanceAll, AsManyMinimaAreKeptAsAreAskedFor) {
+  // Two cubes in one part, each 1 m above the plate.
+  const std::string cubes =
+      folder_
+          .write("cubes.obj", objText(joined(boxMesh({1, 1, 1}), transformed(boxMesh({1, 1, 1}), 1.0,
+                                                                             {{1, 0, 0, 0}, {1.5, 0, 0}}))))
+          .string();
+  const std::string two = path("two.nearfit");
+  ASSERT_EQ(runCli({"scene", "new", two, "--unit", "m", "--part", "Plate=" + path("plate.obj"), "--part",
+                    "Cubes=" + cubes + "@0,0,2,1,0,0,0"})
+                .exitCode,
+            0);
+  const auto findingWith = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> options{"--threshold", "1.5", "--json"};
+    options.insert(options.end(), more.begin(), more.end());
+    const auto result = check(two, options);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return Json::parse(result.out)["findings"][0];
+  };
+  const Json one = findingWith({"--minima", "1"}), all = findingWith({"--minima", "0"});
+  EXPECT_EQ(one["minima"].size(), 1U);
+  EXPECT_FALSE(one["everyMinimum"].get<bool>());
+  EXPECT_GE(all["minima"].size(), 2U);
+  EXPECT_TRUE(all["everyMinimum"].get<bool>());
+  EXPECT_EQ(all["minima"], findingWith({})["minima"]) << "fewer than 100";
+}
+
 TEST_F(ClearanceAll, RulesOfTheCommandLineLeaveOutAndAllow) {
   EXPECT_EQ(check(clashing_, {"--leave-out", "Cube:Pl*"}).exitCode, 0);
   EXPECT_EQ(check(clashing_, {"--touching", "Plate:Cube"}).exitCode, 3);
@@ -102,12 +141,17 @@ TEST_F(ClearanceAll, WhatMakesNoSenseIsWrongUsage) {
                                              {"--part", "Plate"},
                                              {"--cutoff", "0.1"},
                                              {"--json", "-", "--csv", "-"},
+                                             {"--json", "--csv"},
+                                             {"--minima", "-1"},
+                                             {"--minima", "many"},
                                              {"--json", path("x.json"), "--csv", path("x.json")},
                                              {"--json", path("plate.obj")}}) {
     const auto result = check(clashing_, options);
     EXPECT_EQ(result.exitCode, 2) << options.back() << result.err;
   }
   EXPECT_EQ(runCli({"clearance", clashing_, "--threshold", "0.1"}).exitCode, 2) << "it needs --all";
+  EXPECT_EQ(runCli({"clearance", clashing_, "--json"}).exitCode, 2) << "it needs --all";
+  EXPECT_EQ(runCli({"clearance", clashing_, "--minima", "5"}).exitCode, 2) << "it needs --all";
   EXPECT_FALSE(std::filesystem::exists(path("x.json")));
   EXPECT_THAT(readBytes(path("plate.obj")), HasSubstr("f "));
 }

@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,23 @@ TEST_F(SuggestCommand, APathIsFoundThatCertifies) {
   const auto certified =
       runCli({"certify", path("in.nfpath"), scene_, "-o", path("in.nfcert"), "--separation", "0.05"});
   EXPECT_EQ(certified.exitCode, 0) << certified.out << certified.err;
+}
+
+TEST_F(SuggestCommand, ItsCertificateIsVerified) {
+  const auto result =
+      suggest({"--to", "0,0,-1.2,1,0,0,0", "--separation", "0.05", "--certificate", path("in.nfcert")});
+  ASSERT_EQ(result.exitCode, 0) << result.out << result.err;
+  const auto verified = runCli({"verify", path("in.nfcert"), scene_, path("in.nfpath"), "--json"});
+  EXPECT_EQ(verified.exitCode, 0) << verified.out << verified.err;
+  EXPECT_EQ(nlohmann::json::parse(verified.out).at("separation"), 0.05);
+  // It names the scene file: one with other bytes is refused.
+  std::ofstream(scene_, std::ios::app) << '\n';
+  EXPECT_EQ(runCli({"verify", path("in.nfcert"), scene_}).exitCode, 3);
+}
+
+TEST_F(SuggestCommand, WhereNothingIsFoundThereIsNoCertificate) {
+  EXPECT_EQ(suggest({"--to-drawn", "--certificate", path("in.nfcert")}).exitCode, 3);
+  EXPECT_FALSE(std::filesystem::exists(path("in.nfcert")));
 }
 
 TEST_F(SuggestCommand, LeadsRoundThePlateToItsOtherSide) {
@@ -66,7 +84,11 @@ TEST_F(SuggestCommand, WhatMakesNoSenseIsWrongUsage) {
            {"suggest", scene_, "-o", path("x"), "--out", "--part", "Cube", "--group", "G"},
            {"suggest", scene_, "-o", path("x"), "--to", "0,0,2,1,0,0,0"},
            {"suggest", scene_, "-o", path("x"), "--out"},
-           {"suggest", scene_, "-o", path("plate.obj"), "--out"}}) {
+           {"suggest", scene_, "-o", path("plate.obj"), "--out"},
+           {"suggest", scene_, "-o", path("x"), "--to", "0,0,1.1,1,0,0,0", "--certificate", path("x")},
+           {"suggest", scene_, "-o", path("x"), "--to", "0,0,1.1,1,0,0,0", "--certificate", scene_},
+           {"suggest", scene_, "-o", path("x"), "--to", "0,0,1.1,1,0,0,0", "--certificate",
+            path("cube.obj")}}) {
     const auto result = runCli(arguments);
     EXPECT_EQ(result.exitCode, 2) << arguments.back() << ": " << result.out << result.err;
     EXPECT_FALSE(std::filesystem::exists(path("x"))) << arguments.back();

@@ -2,7 +2,11 @@
 #include <QPushButton>
 #include <QRadioButton>
 
+#include "core/files/sha256.h"
+#include "core/path/certificate.h"
 #include "core/path/path_file.h"
+#include "core/path/path_verifier.h"
+#include "core/scene/scene_file.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/app/desktop/dialog_answers.h"
 #include "tests/app/desktop/view_driver.h"
@@ -55,6 +59,7 @@ class DesktopSuggestTest : public QObject {
 
  private slots:
   void aPathThatIsFoundIsPlayedSavedAndFelt();
+  void theCertificateIsSavedUntilTheSceneChanges();
   void theGuideIsSeenAndTheKeysGoToTheView();
   void closingTheCardEndsTheGhost();
   void theSeparationOfferedCanBeRead();
@@ -85,6 +90,44 @@ void DesktopSuggestTest::aPathThatIsFoundIsPlayedSavedAndFelt() {
   QTRY_VERIFY(f.d.application.servo().isRunning());
   f.d.choose("stop");
   QTRY_VERIFY(!f.d.application.servo().status().isTaken());
+  QVERIFY2(f.answers.faults().isEmpty(), qPrintable(f.answers.faults().join(QLatin1Char(','))));
+  QVERIFY(f.failures.isEmpty());
+}
+
+void DesktopSuggestTest::theCertificateIsSavedUntilTheSceneChanges() {
+  SuggestFixture f;
+  f.suggest("suggestToDrawn");
+  QTRY_VERIFY_WITH_TIMEOUT(f.card() != nullptr && f.card()->isVisible(), 60'000);
+  const auto* button = f.card()->findChild<QPushButton*>(QStringLiteral("suggestionCertificate"));
+  QVERIFY(button->isEnabled());
+  const auto savedTo = [&f](const char* name) {
+    const std::filesystem::path file = f.d.folder.path() / name;
+    f.answers.expectFile(QString::fromStdString(file.string()));
+    f.press("suggestionCertificate");
+    [&file] { QTRY_VERIFY(std::filesystem::exists(file)); }();
+    return parseCertificate(readBytes(file), file);
+  };
+  const Certificate unsaved = savedTo("unsaved.nfcert");
+  QVERIFY(unsaved.sceneSha256.empty());
+  Verification verified = verifyCertificate(unsaved, f.d.session().scene(), {});
+  QVERIFY2(verified.isProven(), verified.problem.c_str());
+  QVERIFY(verified.stretches > 0);
+
+  const std::filesystem::path scene = f.d.folder.path() / "cubes.nearfit";
+  f.d.session().save(scene);
+  QTRY_VERIFY(button->isEnabled());
+  const Certificate saved = savedTo("saved.nfcert");
+  QCOMPARE(saved.sceneSha256, sha256OfFile(scene));
+  verified = verifyCertificate(saved, readSceneFile(scene), saved.sceneSha256);
+  QVERIFY2(verified.isProven(), verified.problem.c_str());
+
+  QTRY_VERIFY(button->isEnabled());
+  RigidTransform away;
+  away.translation = {0.0, 0.2, 0.0};
+  f.d.session().movePart(f.d.partId("fixed"), away);
+  QVERIFY(!button->isEnabled());
+  f.d.session().undo();
+  QVERIFY(button->isEnabled());
   QVERIFY2(f.answers.faults().isEmpty(), qPrintable(f.answers.faults().join(QLatin1Char(','))));
   QVERIFY(f.failures.isEmpty());
 }

@@ -1,7 +1,10 @@
 #include "core/path/path_search.h"
 
+#include <atomic>
 #include <cmath>
+#include <memory>
 #include <string>
+#include <thread>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -163,6 +166,38 @@ TEST(PathSearch, WhatMakesNoSenseIsRefused) {
   EXPECT_THAT(test::refusalOf([&] { search(made, withSeed(1)); }), HasSubstr("there already"));
   made.scene.setMovingPart(std::nullopt);
   EXPECT_THAT(test::refusalOf([&] { search(made, withSeed(1)); }), HasSubstr("nothing is in hand"));
+}
+
+/// The time goes on by a step with each look at the clock, whatever the machine does meanwhile. Shortening, of up to 32
+/// looks, went on after the time was over.
+TEST(PathSearch, ShorteningEndsWithinTheTimeThatIsSet) {
+  constexpr double kStep = 1e-3;
+  // Looks that threads have begun when the time ends, and those that see that it has.
+  const double slack = kStep * (8.0 + std::thread::hardware_concurrency());
+  test::SuggestScene made{"plate", {}, {}};
+  made.scene.add(test::partOf(test::geometryOf(test::boxMesh({4, 4, 1})), "Plate"));
+  made.scene.setMovingPart(
+      made.scene.add(test::partOf(test::geometryOf(test::boxMesh({1, 1, 1})), "Cube", test::at(0, 0, 2))));
+  made.goal.pose = test::at(0, 0, -1.2);
+  const auto searchWithin = [&made](double seconds) {
+    PathSearchOptions options = withSeed(1);
+    options.separation = 0.05;
+    options.seconds = seconds;
+    options.now = [looks = std::make_shared<std::atomic<int>>(0)] { return kStep * looks->fetch_add(1); };
+    return search(made, options);
+  };
+  const PathSearchResult whole = searchWithin(kAnyTime);
+  ASSERT_EQ(whole.end, PathSearchEnd::Found);
+  EXPECT_GT(whole.path.poses.size(), 2U) << "else there is nothing to shorten";
+  // Threads share the looks out anew each time, so that many ends are tried.
+  for (int before = 0; before < 120; before += 4) {
+    const double seconds = whole.seconds - before * kStep;
+    if (!(seconds > 0.0)) break;
+    const PathSearchResult result = searchWithin(seconds);
+    if (result.end == PathSearchEnd::Found) {
+      EXPECT_LE(result.seconds, seconds + slack) << before << " looks before the end";
+    }
+  }
 }
 
 TEST(PathSearch, StopsWhenTheUserCancels) {

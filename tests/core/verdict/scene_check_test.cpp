@@ -100,6 +100,27 @@ TEST(SceneCheck, MoreMinimaThanAreKeptAreSaid) {
   EXPECT_FALSE(few.findings[0].isEveryMinimum);
 }
 
+TEST(SceneCheck, WithoutALimitAllMinimaAreKept) {
+  // More than are kept by default.
+  constexpr int kTips = 120;
+  Scene scene;
+  TriangleMesh tips = test::tetrahedronMesh(0.1);
+  for (int i = 1; i < kTips; ++i)
+    tips = test::joined(tips, test::transformed(test::tetrahedronMesh(0.1), 1.0, at({0.3 * i, 0, 0})));
+  add(scene, tips, "tips");
+  add(scene, test::boxMesh({80, 1, 0.1}), "plate", at({18, 0, 0.2}));
+  SceneCheckRequest request = sceneCheckRequest(scene, 0.2);
+  const SceneCheck some = checkScene(request);
+  ASSERT_EQ(some.findings.size(), 1U);
+  EXPECT_EQ(some.findings[0].minima.size(), request.maxMinima);
+  EXPECT_FALSE(some.findings[0].isEveryMinimum);
+  request.maxMinima = 0;
+  const SceneCheck all = checkScene(request);
+  ASSERT_EQ(all.findings.size(), 1U);
+  EXPECT_GE(all.findings[0].minima.size(), static_cast<std::size_t>(kTips)) << "one for each tip";
+  EXPECT_TRUE(all.findings[0].isEveryMinimum);
+}
+
 TEST(SceneCheck, AClashHasItsCurvesVolumeAndDepthInTheWorld) {
   Scene scene;
   // Both turned and moved alike: what they share is turned and moved too.

@@ -6,11 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <filesystem>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "core/files/atomic_write.h"
+#include "core/files/sha256.h"
 #include "core/parallel/low_priority.h"
+#include "core/path/certificate.h"
 #include "core/path/path_file.h"
 #include "core/scene/drawn_pose.h"
 #include "core/scene/moving_body.h"
@@ -109,6 +114,7 @@ void PathSuggestion::search(const SuggestionRequest& request) {
   search->scene = session_.scene();
   search->request = request;
   sceneSerial_ = session_.sceneSerial();
+  stateSerial_ = session_.stateSerial();
   moving_ = *search->scene.movingPart();
   movingGroup_ = search->scene.movingGroup();
   const auto job = [search](const ProgressCallback& progress) {
@@ -119,26 +125,31 @@ void PathSuggestion::search(const SuggestionRequest& request) {
   const QString text = tr("Looking for a path of %1").arg(shortName(nameOfMoving(search->scene)));
   runWithDialog(task_, tr("Searching"), text, window_, job, [this, search](const std::exception_ptr& error) {
     update();
-    if (!error) return show(*search);
+    if (!error) return show(search);
     if (isCancelled(error)) return emit noted(tr("The search was cancelled"));
     emit failed(describe(tr("No path could be searched."), error));
   });
   update();
 }
 
-void PathSuggestion::show(const Search& search) {
+void PathSuggestion::show(const std::shared_ptr<const Search>& search) {
   const Scene& scene = session_.scene();
   // It may have been put down, or another scene opened, meanwhile.
   if (session_.sceneSerial() != sceneSerial_ || scene.movingPart() != moving_ ||
       scene.movingGroup() != movingGroup_)
     return emit noted(tr("The path that was searched is of what is no longer in hand"));
-  const bool isFound = search.result.end == PathSearchEnd::Found;
-  if (isFound) path_ = std::make_shared<const AssemblyPath>(search.result.path);
-  const std::string text = describePathSearch(search.scene, search.goal, search.result, [](double length) {
+  const bool isFound = search->result.end == PathSearchEnd::Found;
+  if (isFound) {
+    path_ = std::make_shared<const AssemblyPath>(search->result.path);
+    found_ = search;
+  }
+  const std::string text = describePathSearch(search->scene, search->goal, search->result, [](double length) {
     return formatLength(length).toStdString();
   });
   card_ = new SuggestionCard(QString::fromStdString(text), isFound, window_);
   connect(card_, &SuggestionCard::saveWanted, this, &PathSuggestion::save);
+  connect(card_, &SuggestionCard::certificateWanted, this, &PathSuggestion::saveCertificate);
+  card_->setCertifiable(isCertifiable());
   connect(card_, &SuggestionCard::guidanceWanted, this, &PathSuggestion::guide);
   connect(card_, &QDialog::finished, this, &PathSuggestion::close);
   card_->move(view_.mapToGlobal(QPoint(kCardFromCorner, kCardFromCorner)));
@@ -158,6 +169,7 @@ void PathSuggestion::close() {
   const bool isShown = timer_.isActive();
   timer_.stop();
   path_.reset();
+  found_.reset();
   way_->clear();
   if (isShown) view_.clearSnapshot();
   view_.requestRender();
@@ -179,6 +191,37 @@ void PathSuggestion::save() {
     return emit failed(describe(tr("The path could not be saved."), std::current_exception()));
   }
   emit noted(tr("Saved the path to %1").arg(shortName(QFileInfo(*file).fileName())));
+}
+
+bool PathSuggestion::isCertifiable() const {
+  return found_ != nullptr && session_.stateSerial() == stateSerial_ && !task_.isRunning();
+}
+
+void PathSuggestion::saveCertificate() {
+  const std::optional<QString> file =
+      askForSave({tr("Save certificate"),
+                  Preferences::lastFolder() + QStringLiteral("/suggested.nfcert"),
+                  {tr("Certificates (*.nfcert)")},
+                  {QStringLiteral("nfcert")}},
+                 window_);
+  if (!file || !isCertifiable()) return;
+  const bool isSaved = !session_.file().empty() && !session_.isModified();
+  const auto job = [found = found_, to = toPath(*file),
+                    scene = isSaved ? session_.file() : std::filesystem::path()](const ProgressCallback&) {
+    lowerThreadPriority();
+    const std::string sceneSha256 = scene.empty() ? std::string() : sha256OfFile(scene);
+    atomicWrite(to, certificateText(
+                        certificateOf(found->scene, found->result.path, found->result.proof, sceneSha256)));
+  };
+  runWithDialog(task_, tr("Writing"), tr("Writing the certificate"), window_, job,
+                [this, file = *file](const std::exception_ptr& error) {
+                  update();
+                  if (error && isCancelled(error)) return;
+                  if (error) return emit failed(describe(tr("The certificate could not be saved."), error));
+                  Preferences::rememberFolderOf(file);
+                  emit noted(tr("Saved the certificate to %1").arg(shortName(QFileInfo(file).fileName())));
+                });
+  update();
 }
 
 void PathSuggestion::guide(bool isOn) {
@@ -207,6 +250,7 @@ void PathSuggestion::drawWay() {
 void PathSuggestion::update() {
   const bool isTaken = hand_.status().isTaken();
   action_->setEnabled(!isTaken && !task_.isRunning() && session_.scene().movingPart().has_value());
+  if (card_) card_->setCertifiable(isCertifiable());
   const bool isPlaying = path_ != nullptr && !isTaken;
   if (isPlaying == timer_.isActive()) return;
   if (isPlaying) {

@@ -25,7 +25,7 @@ class SuggestionCard;
 class Viewport;
 
 /// *Suggest path...*: searches a path of what is in hand in another thread, draws it in the view as a line, plays it as a
-/// ghost, saves it, and has the hand guided along it. Changes nothing in the session. The ghost rests while the part is
+/// ghost, saves it and its certificate, and has the hand guided along it. Changes nothing in the session. The ghost rests while the part is
 /// felt: the view then shows the hand's.
 class PathSuggestion : public QObject {
   Q_OBJECT
@@ -64,8 +64,11 @@ class PathSuggestion : public QObject {
 
   void askAndSearch();
   void search(const SuggestionRequest& request);
-  void show(const Search& search);
+  void show(const std::shared_ptr<const Search>& search);
   void save();
+  void saveCertificate();
+  /// True if the path on show was proven in the scene as it is.
+  bool isCertifiable() const;
   void guide(bool isOn);
   /// Draws the way of the centre of mass of what is in hand along the path.
   void drawWay();
@@ -81,10 +84,12 @@ class PathSuggestion : public QObject {
   BackgroundTask task_;
   QPointer<SuggestionCard> card_;
   std::shared_ptr<const AssemblyPath> path_;  ///< On show; null if there is none.
+  std::shared_ptr<const Search> found_;       ///< That found it; null if there is none.
   bool isGuiding_ = false;
   PartId moving_{};                     ///< Part that the path moves; of a group the one that leads.
   std::optional<GroupId> movingGroup_;  ///< Set if that part leads a group.
   std::uint64_t sceneSerial_ = 0;       ///< Serial of its scene.
+  std::uint64_t stateSerial_ = 0;       ///< Serial of the scene's state that was searched.
   std::unique_ptr<ServoSnapshot> ghost_;
   std::unique_ptr<MarkActors> way_;
   QTimer timer_;

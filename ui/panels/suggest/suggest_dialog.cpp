@@ -98,7 +98,7 @@ QLayout* SuggestDialog::makeFields(const SuggestionRequest& first) {
   seconds_->setDecimals(0);
   seconds_->setQuantityRange(kMinSeconds, kMaxSeconds);
   seconds_->setQuantityStep(10.0);
-  seconds_->setHelp(QObject::tr("Time of the search; making the path shorter may add half of it"));
+  seconds_->setHelp(QObject::tr("The search, and making its path shorter, take no longer than this"));
   seconds_->showQuantity(first.seconds);
   separation_->setObjectName(QStringLiteral("suggestSeparation"));
   separation_->setLength(6);

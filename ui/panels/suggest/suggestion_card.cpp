@@ -26,6 +26,12 @@ SuggestionCard::SuggestionCard(const QString& text, bool isFound, QWidget* paren
     save->setToolTip(tr("Save the path to a file, which nearfit-cli certify proves anew"));
     save->setAutoDefault(false);
     connect(save, &QPushButton::clicked, this, &SuggestionCard::saveWanted);
+    certificate_ = buttons->addButton(tr("Save ce&rtificate…"), QDialogButtonBox::ActionRole);
+    certificate_->setObjectName(QStringLiteral("suggestionCertificate"));
+    certificate_->setToolTip(
+        tr("Save the proof as a file that nearfit-cli verify proves anew; a change of the scene ends it"));
+    certificate_->setAutoDefault(false);
+    connect(certificate_, &QPushButton::clicked, this, &SuggestionCard::certificateWanted);
     auto* feel = buttons->addButton(tr("&Feel it"), QDialogButtonBox::ActionRole);
     feel->setObjectName(QStringLiteral("suggestionFeel"));
     feel->setCheckable(true);
@@ -37,6 +43,10 @@ SuggestionCard::SuggestionCard(const QString& text, bool isFound, QWidget* paren
   layout->addWidget(label);
   layout->addWidget(buttons);
   setMinimumWidth(forFont(*this, 380));
+}
+
+void SuggestionCard::setCertifiable(bool isIt) {
+  if (certificate_ != nullptr) certificate_->setEnabled(isIt);
 }
 
 }  // namespace nearfit::ui

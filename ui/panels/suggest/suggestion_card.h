@@ -2,6 +2,8 @@
 
 #include <QDialog>
 
+class QPushButton;
+
 namespace nearfit::ui {
 
 /// Says what a search for a path came to. Stays open beside the view, which plays the path; closing it ends that.
@@ -12,9 +14,16 @@ class SuggestionCard : public QDialog {
   /// @param isFound  False: there is nothing to save or to feel.
   SuggestionCard(const QString& text, bool isFound, QWidget* parent);
 
+  /// True as long as the proof is of the scene as it is.
+  void setCertifiable(bool isIt);
+
  signals:
   void saveWanted();
+  void certificateWanted();
   void guidanceWanted(bool isOn);
+
+ private:
+  QPushButton* certificate_ = nullptr;  ///< Null if nothing is found.
 };
 
 }  // namespace nearfit::ui
