@@ -40,7 +40,8 @@ constexpr const char* kCertifyFooter =
     "where\n"
     "it comes nearer than 17/16 of the separation. The certificate holds the path, hashes of the scene file "
     "and\n"
-    "of all meshes, and the bounds of the proof; nearfit-cli verify proves it anew.\n"
+    "of all meshes, the bounds of the proof, and where scene and path file are from its own folder on;\n"
+    "nearfit-cli verify CERT proves it anew.\n"
     "Exit code 3, and no certificate, if the path is not proven free; the first such place is printed.\n"
     "Example: nearfit-cli certify in.nfpath fit.nearfit -o in.nfcert --separation 1e-5";
 
@@ -84,6 +85,7 @@ void runCertify(const CertifyOptions& options) {
   if (!isJsonFile(options.path))
     throw FileError(options.path, "it is not a path file",
                     "make one of a recording (nearfit-cli path RECORDING SCENE -o OUT.nfpath)");
+  const std::string pathFileSha256 = sha256OfFile(options.path);
   const AssemblyPath path = readPathFile(options.path);
   const std::string sceneSha256 = sha256OfFile(options.scene);
   const Scene scene = readSceneFile(options.scene);
@@ -95,7 +97,11 @@ void runCertify(const CertifyOptions& options) {
                  unprovenSentence(scene, *proof.unproven, separation), options.isJson);
     throw NegativeVerdict();
   }
-  atomicWrite(options.out, certificateText(certificateOf(scene, path, proof, sceneSha256)));
+  Certificate certificate = certificateOf(scene, path, proof, sceneSha256);
+  certificate.sceneFile = certifiedName(options.scene, options.out);
+  certificate.pathFile = certifiedName(options.path, options.out);
+  certificate.pathFileSha256 = pathFileSha256;
+  atomicWrite(options.out, certificateText(certificate));
   std::size_t stretches = 0;
   for (const PairProof& pair : proof.pairs)
     stretches += pair.stretches.size();
@@ -113,15 +119,18 @@ void runCertify(const CertifyOptions& options) {
 
 struct VerifyOptions {
   std::string certificate, scene, path;
-  bool isJson = false;
+  bool isWithoutPath = false, isJson = false;
 };
 
 constexpr const char* kVerifyFooter =
     "Proves the certificate anew, by code that shares no search with what made it, and checks that scene "
     "file,\n"
-    "meshes, poses and path are those that it is about. PATH, if given, must be the certified path.\n"
+    "meshes, poses and path are those that it is about. Where SCENE or PATH is not given, the files that "
+    "the\n"
+    "certificate names are taken, from its folder on; they count only if their hashes are those in it.\n"
+    "--no-path checks no path file: what the certificate says of the path is proven all the same.\n"
     "Exit code 3 if anything differs or is not proven; what it is is printed.\n"
-    "Example: nearfit-cli verify in.nfcert fit.nearfit in.nfpath";
+    "Example: nearfit-cli verify in.nfcert";
 
 /// Throws NegativeVerdict after saying why.
 [[noreturn]] void refuse(const std::string& problem, bool isJson) {
@@ -139,31 +148,81 @@ auto orRefuse(const Read& read, bool isJson) -> decltype(read()) {
   }
 }
 
+/// The file that the certificate names. Throws FileError, with what to give instead, unless an ordinary file is there.
+std::filesystem::path namedInput(const VerifyOptions& options, const std::string& name, const char* instead) {
+  const std::filesystem::path file = fileOfCertifiedName(name, options.certificate);
+  try {
+    static_cast<void>(InputFile(file));
+  } catch (const FileError& e) {
+    throw FileError(e.where(), "the certificate names this file, and " + e.problem(), instead);
+  }
+  return file;
+}
+
+/// The scene to prove the certificate in. Throws UsageError if neither names one.
+std::filesystem::path sceneToVerify(const VerifyOptions& options, const Certificate& certificate) {
+  if (!options.scene.empty()) return options.scene;
+  if (!certificate.sceneFile.empty())
+    return namedInput(options, certificate.sceneFile,
+                      "say where the scene is: nearfit-cli verify CERT SCENE");
+  throw UsageError(options.certificate,
+                   certificate.sceneSha256.empty()
+                       ? "it holds no hash of a scene file: the scene was not saved when it was made"
+                       : "it does not name its scene file",
+                   "give the scene: nearfit-cli verify CERT SCENE");
+}
+
+/// Hash of the scene file, or a refusal if it is not the certified one.
+std::string checkedSceneHash(const std::filesystem::path& scene, const Certificate& certificate,
+                             bool isJson) {
+  const bool isTooLarge = InputFile(scene).size() > kMaxSceneFileBytes;
+  const std::string sha256 = isTooLarge ? std::string() : sha256OfFile(scene);
+  if (isTooLarge || (!certificate.sceneSha256.empty() && certificate.sceneSha256 != sha256))
+    refuse("the scene file is not the one that was certified: its bytes differ", isJson);
+  return sha256;
+}
+
+/// The path file's path, or std::nullopt if none is to be checked; a refusal if it is not the certified one.
+std::optional<AssemblyPath> pathToVerify(const VerifyOptions& options, const Certificate& certificate) {
+  std::filesystem::path file = options.path;
+  if (file.empty()) {
+    if (options.isWithoutPath || certificate.pathFile.empty()) return std::nullopt;
+    file =
+        namedInput(options, certificate.pathFile,
+                   "say where the path is: nearfit-cli verify CERT SCENE PATH; or leave it out: --no-path");
+  }
+  // A file that is not there is a failure, not a verdict.
+  static_cast<void>(InputFile(file));
+  AssemblyPath path = orRefuse([&] { return readPathFile(file); }, options.isJson);
+  if (!certificate.pathFileSha256.empty() && sha256OfFile(file) != certificate.pathFileSha256)
+    refuse("the path file is not the one that was certified: its bytes differ", options.isJson);
+  return path;
+}
+
 void runVerify(const VerifyOptions& options) {
   const std::vector<char> text = readWholeFile(options.certificate);
   const Certificate certificate = orRefuse(
       [&] { return parseCertificate({text.data(), text.size()}, options.certificate); }, options.isJson);
-  std::optional<AssemblyPath> path;
-  if (!options.path.empty()) {
-    // A file that is not there is a failure, not a verdict.
-    static_cast<void>(InputFile(options.path));
-    path = orRefuse([&] { return readPathFile(options.path); }, options.isJson);
-  }
-  const std::string sceneSha256 = sha256OfFile(options.scene);
-  if (!certificate.sceneSha256.empty() && certificate.sceneSha256 != sceneSha256)
-    refuse("the scene file is not the one that was certified: its bytes differ", options.isJson);
+  const std::filesystem::path sceneFile = sceneToVerify(options, certificate);
+  const std::optional<AssemblyPath> path = pathToVerify(options, certificate);
+  const std::string sceneSha256 = checkedSceneHash(sceneFile, certificate, options.isJson);
   std::vector<std::filesystem::path> changed;
-  const Scene scene = readSceneFile(options.scene, {}, &changed);
+  const Scene scene = readSceneFile(sceneFile, {}, &changed);
   if (!changed.empty()) refuse("the mesh file " + changed.front().string() + " was changed", options.isJson);
   const Verification verified = verifyCertificate(certificate, scene, sceneSha256, path);
   if (!verified.isProven()) refuse(verified.problem, options.isJson);
+  // Without it names, meshes and places of all parts, to the last bit, say that the scene is the same.
+  const bool hasSceneHash = !certificate.sceneSha256.empty();
   printVerdict(
       {{"verified", true},
        {"separation", certificate.separation},
        {"poses", certificate.path.poses.size()},
-       {"stretches", verified.stretches}},
-      fmt::format("verified: {} poses keep {:.6g} m from each other part, by {} stretches proven anew",
-                  certificate.path.poses.size(), certificate.separation, verified.stretches),
+       {"stretches", verified.stretches},
+       {"scene_file_hashed", hasSceneHash},
+       {"path_file_checked", path.has_value()}},
+      fmt::format("verified: {} poses keep {:.6g} m from each other part, by {} stretches proven anew{}",
+                  certificate.path.poses.size(), certificate.separation, verified.stretches,
+                  hasSceneHash ? "" : "; the certificate holds no hash of a scene file, but of all meshes"),
       options.isJson);
 }
 
@@ -189,8 +248,12 @@ void addVerifyCommand(CLI::App& program) {
   command->add_option("certificate", options->certificate, "Certificate (*.nfcert)")
       ->required()
       ->type_name("CERT");
-  command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required()->type_name("SCENE");
-  command->add_option("path", options->path, "Path file that it must be about")->type_name("PATH");
+  command->add_option("scene", options->scene, "Scene file (*.nearfit); default: the one that it names")
+      ->type_name("SCENE");
+  CLI::Option* path = command->add_option("path", options->path,
+                                          "Path file that it must be about; default: the one that it names");
+  path->type_name("PATH");
+  command->add_flag("--no-path", options->isWithoutPath, "Check no path file")->excludes(path);
   command->add_flag("--json", options->isJson, "Print the verdict as one JSON object");
   command->footer(kVerifyFooter);
   command->callback([options] { runVerify(*options); });

@@ -1,3 +1,4 @@
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -23,6 +24,7 @@ namespace {
 
 struct ReportOptions {
   std::string scene, path, certificate, threshold, author, out;
+  std::size_t pictures = kDefaultPicturedFindings;
 };
 
 constexpr const char* kReportFooter =
@@ -60,7 +62,8 @@ FitReportRequest requestFor(const ReportOptions& options, const Scene& scene,
   if (!options.threshold.empty()) threshold = parseLength("--threshold", options.threshold);
   checkPositive("--threshold", threshold, true);
   FitReportRequest request = fitReportRequest(scene, options.scene, sceneSha256, threshold);
-  if (!options.author.empty()) request.origin = reportOrigin(options.author);
+  if (!options.author.empty()) request.origin.author = options.author;
+  request.maxPictured = options.pictures;
   if (!options.path.empty()) {
     if (!isJsonFile(options.path))
       throw FileError(options.path, "it is not a path file",
@@ -105,6 +108,10 @@ void addReportCommand(CLI::App& program) {
       ->add_option("--threshold", options->threshold,
                    "Find pairs no farther apart [m, or with a unit]; default: the scene's cutoff")
       ->type_name("D");
+  command
+      ->add_option("--pictures", options.pictures, "Findings to show in pictures, the worst first; 0: each")
+      ->capture_default_str()
+      ->type_name("N");
   command->add_option("--author", options->author, "Who made the report; default: the user's name here")
       ->type_name("NAME");
   command->add_option("-o,--out", options->out, "Report to write")->required()->type_name("OUT.html");

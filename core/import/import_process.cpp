@@ -35,6 +35,8 @@ using Clock = std::chrono::steady_clock;
 
 /// Time between two looks at whether the user cancels: short enough to be felt as at once [ms].
 constexpr int kLookEveryMs = 20;
+/// Time for the importer to say its version: many times what its libraries take to load from a slow disk.
+constexpr std::chrono::seconds kVersionTime{10};
 
 /// Words of messages about a program's work.
 struct HelperWork {
@@ -155,12 +157,14 @@ std::vector<char*> pointersTo(std::vector<std::string>& texts) {
 class ImportChild {
  public:
   /// @param request  -1: it gets none.
+  /// @param output   What it prints goes there; -1: nowhere.
   ImportChild(const std::filesystem::path& program, std::vector<std::string> arguments, int result,
-              int messages, int request) {
+              int messages, int request, int output = -1) {
     SpawnActions actions;
     actions.open(0, O_RDONLY);
     actions.open(1, O_WRONLY);
     actions.open(2, O_WRONLY);
+    if (output >= 0) actions.copy(output, 1);
     actions.copy(result, protocol::kResultDescriptor);
     actions.copy(messages, protocol::kMessageDescriptor);
     if (request >= 0) actions.copy(request, protocol::kRequestDescriptor);
@@ -439,6 +443,32 @@ std::filesystem::path importProgram() {
 
 std::filesystem::path exportProgram() {
   return programOf(kExport);
+}
+
+std::string importerVersion() {
+  const std::filesystem::path program = importProgram();
+  const auto fail = [&] {
+    throw FileError(program.string(), "it does not say its version", "reinstall Nearfit");
+  };
+  const OwnedDescriptor output(memoryFile(program, kImport));
+  int status = 0;
+  {
+    ImportChild child(program, {program.string(), "--version"}, output.get(), output.get(), -1, output.get());
+    const Clock::time_point end = Clock::now() + kVersionTime;
+    while (!child.hasEnded()) {
+      if (Clock::now() > end) fail();
+      ::poll(nullptr, 0, kLookEveryMs);
+    }
+    status = child.stop();
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail();
+  const std::vector<std::byte> bytes = readResult(output.get(), program, kImport);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::size_t first = text.find('\n');
+  const std::size_t second = first == text.npos ? first : text.find('\n', first + 1);
+  if (second == text.npos || !text.substr(first + 1).starts_with("OpenCASCADE ")) fail();
+  return fmt::format("{}, {}", shown(text.substr(0, first)),
+                     shown(text.substr(first + 1, second - first - 1)));
 }
 
 std::vector<std::byte> runImporter(const std::filesystem::path& program, const std::filesystem::path& file,

@@ -18,6 +18,10 @@ std::filesystem::path importProgram();
 /// NEARFIT_EXPORT names, as for importProgram(). Throws FileError.
 std::filesystem::path exportProgram();
 
+/// Asks the importer for its version and that of OpenCASCADE: "nearfit-import 0.1.0, OpenCASCADE 7.6.3". Takes as long as its
+/// libraries take to load. Throws FileError if it is missing, is not to be trusted or does not answer.
+std::string importerVersion();
+
 /// Limits of a run of either program.
 struct ImportLimits {
   double silence = 20.0;  ///< Max time without a sign of progress [s].

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,17 +14,21 @@
 #include "core/path/path_file.h"
 #include "core/text/json_file.h"
 #include "core/text/json_text.h"
+#include "core/text/utf8.h"
 
 namespace nearfit {
 namespace {
 
 using CertificateJson = nlohmann::ordered_json;
 
-constexpr int kCertificateVersion = 1;
+/// Version that is written, and oldest that is read.
+constexpr int kCertificateVersion = 2, kOldestCertificateVersion = 1;
 /// Digits of a SHA-256.
 constexpr std::size_t kHashDigits = 64;
 /// Text before and after the hash at the end.
 constexpr std::string_view kBeforeHash = ",\n  \"sha256\": \"", kAfterHash = "\"\n}\n";
+/// Max length of a file's name: longer than any that Linux opens.
+constexpr std::size_t kMaxFileNameBytes = 4096;
 /// Max numbers of parts and of stretches of all pairs.
 constexpr std::size_t kMaxCertifiedParts = 20'000, kMaxStretches = 8'000'000;
 /// Room for these and for a path of kMaxPathPoses poses.
@@ -77,6 +82,21 @@ RigidTransform poseField(const JsonField& part) {
   q.requireSize(4);
   return {glm::dquat(q.at(0).number(), q.at(1).number(), q.at(2).number(), q.at(3).number()),
           glm::dvec3(t.at(0).number(), t.at(1).number(), t.at(2).number())};
+}
+
+/// Absolute, with symbolic links resolved as far as the file is there.
+std::filesystem::path resolved(const std::filesystem::path& file) {
+  std::error_code failure;
+  const std::filesystem::path absolute = std::filesystem::absolute(file, failure);
+  const std::filesystem::path real = std::filesystem::weakly_canonical(absolute, failure);
+  return failure ? absolute : real;
+}
+
+/// Reads the name of a file that has a hash if it is named.
+std::string nameField(const JsonField& json, const std::string& sha256) {
+  std::string name = json.text(kMaxFileNameBytes);
+  if (!name.empty() && sha256.empty()) json.fail("a file is named, and no hash of it", kMakeAnew);
+  return name;
 }
 
 CertifiedPart partField(const JsonField& json) {
@@ -154,8 +174,12 @@ std::vector<CertifiedPart> certifiedParts(const PathBodies& bodies) {
 Certificate certificateOf(const Scene& scene, const AssemblyPath& path, const PathProof& proof,
                           std::string sceneSha256) {
   const PathBodies bodies = pathBodies(scene, path);
-  Certificate certificate{
-      "Nearfit " NEARFIT_VERSION, proof.separation, std::move(sceneSha256), path, certifiedParts(bodies), {}};
+  Certificate certificate;
+  certificate.program = "Nearfit " NEARFIT_VERSION;
+  certificate.separation = proof.separation;
+  certificate.sceneSha256 = std::move(sceneSha256);
+  certificate.path = path;
+  certificate.parts = certifiedParts(bodies);
   std::map<PartId, std::size_t> indices;
   for (const PathPart& moving : bodies.moving)
     indices.emplace(moving.part->id, indices.size());
@@ -166,14 +190,28 @@ Certificate certificateOf(const Scene& scene, const AssemblyPath& path, const Pa
   return certificate;
 }
 
+std::string certifiedName(const std::filesystem::path& file, const std::filesystem::path& certificate) {
+  const std::filesystem::path whole = resolved(file);
+  const std::filesystem::path relative = whole.lexically_relative(resolved(certificate).parent_path());
+  std::string name = (relative.empty() ? whole : relative).generic_string();
+  return isUtf8(name) && name.size() <= kMaxFileNameBytes ? name : std::string();
+}
+
+std::filesystem::path fileOfCertifiedName(const std::string& name, const std::filesystem::path& certificate) {
+  return resolved(certificate).parent_path() / name;
+}
+
 std::string certificateText(const Certificate& certificate) {
   CertificateJson json;
   json["certificate"] = kCertificateVersion;
   json["program"] = certificate.program;
   json["separation"] = certificate.separation;
   json["scene"] = certificate.sceneSha256;
+  json["sceneFile"] = certificate.sceneFile;
   json["path"] = pathJson(certificate.path);
   json["pathSha256"] = hashOfPath(certificate.path);
+  json["pathFile"] = certificate.pathFile;
+  json["pathFileSha256"] = certificate.pathFileSha256;
   json["parts"] = CertificateJson::array();
   for (const CertifiedPart& part : certificate.parts)
     json["parts"].push_back(partJsonOf(part));
@@ -194,7 +232,8 @@ Certificate parseCertificate(std::string_view text, const std::filesystem::path&
   checkHashAtEnd(text, file);
   const nlohmann::json json = readJsonText(text, file, kCertificateLimits);
   const JsonField root(json, file);
-  if (root.at("certificate").number() != kCertificateVersion)
+  const double version = root.at("certificate").number();
+  if (version != kCertificateVersion && version != kOldestCertificateVersion)
     root.at("certificate").fail("this version of certificates is not known", "use a newer Nearfit");
   Certificate certificate;
   certificate.program = root.at("program").text(kMaxPartNameBytes);
@@ -204,6 +243,11 @@ Certificate parseCertificate(std::string_view text, const std::filesystem::path&
   certificate.path = pathOfJson(root.at("path"));
   if (hashField(root.at("pathSha256"), false) != hashOfPath(certificate.path))
     root.at("pathSha256").fail("the path does not have this hash", kMakeAnew);
+  if (version >= kCertificateVersion) {
+    certificate.sceneFile = nameField(root.at("sceneFile"), certificate.sceneSha256);
+    certificate.pathFileSha256 = hashField(root.at("pathFileSha256"), true);
+    certificate.pathFile = nameField(root.at("pathFile"), certificate.pathFileSha256);
+  }
   const JsonField parts = root.at("parts"), pairs = root.at("pairs");
   if (parts.size() > kMaxCertifiedParts)
     parts.fail(fmt::format("it has more than {} elements", kMaxCertifiedParts));

@@ -105,6 +105,10 @@ FitReportRequest fitReportRequest(const Scene& scene, const std::filesystem::pat
   request.sceneSha256 = fileSha256;
   if (!file.empty()) request.inputs.push_back({"scene", file, fileSha256});
   request.origin = reportOrigin();
+  const bool hasDocument = std::ranges::any_of(scene.parts(), [](const Scene::PartPtr& part) {
+    return part->geometry && !part->geometry->shapeKey.empty();
+  });
+  if (hasDocument) request.origin.importer = importerOfReport();
   return request;
 }
 

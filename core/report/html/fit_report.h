@@ -25,6 +25,9 @@ struct ReportInput {
   std::string sha256;  ///< Empty: the scene is not what its file holds.
 };
 
+/// Number of findings that a report has pictures of, if nothing else is asked for.
+constexpr std::size_t kDefaultPicturedFindings = 30;
+
 /// Input of a report.
 struct FitReportRequest {
   std::string title;  ///< The scene's name.
@@ -34,6 +37,7 @@ struct FitReportRequest {
   std::string sceneSha256;           ///< SHA-256 of the scene's file; empty if the scene differs from it.
   std::optional<AssemblyPath> path;  ///< Given as a file of its own.
   std::optional<Certificate> certificate;
+  std::size_t maxPictured = kDefaultPicturedFindings;  ///< The worst findings get pictures; 0: each.
   ReportOrigin origin;
 };
 
@@ -89,8 +93,7 @@ FitReport makeFitReport(const FitReportRequest& request, const ProgressCallback&
 std::string verdictSentence(const FitReportRequest& request, const FitReport& report);
 
 /// Limits on what a report shows, so that a browser opens it; it says what is left out.
-constexpr std::size_t kMaxPicturedFindings = 30, kMaxFindingRows = 1000, kMaxPartRows = 2000,
-                      kMaxListedCases = 200;
+constexpr std::size_t kMaxFindingRows = 1000, kMaxPartRows = 2000, kMaxListedCases = 200;
 
 /// The report as one HTML5 document that needs nothing else, for screen and paper. The same for the same request and
 /// report. Draws the pictures, on all processors. Throws Cancelled.

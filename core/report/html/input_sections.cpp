@@ -143,6 +143,8 @@ void putInputs(ReportPageWriter& page, const FitReportRequest& request) {
 void putVersions(ReportPageWriter& page, const ReportOrigin& origin) {
   page.element("dl", [&] {
     page.textTerm("Program", origin.program);
+    if (!origin.revision.empty()) page.textTerm("Revision", origin.revision);
+    if (!origin.importer.empty()) page.textTerm("Reader of CAD documents", origin.importer);
     page.textTerm("Libraries", origin.libraries);
     page.textTerm("System", origin.system);
   });

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <ctime>
+#include <string_view>
 
+#include "git_revision.h"
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <glm/detail/setup.hpp>
@@ -13,7 +15,9 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include "core/base/error.h"
 #include "core/exact/cgal_version.h"
+#include "core/import/import_process.h"
 
 namespace nearfit {
 namespace {
@@ -44,9 +48,24 @@ std::string libraryVersions() {
 
 }  // namespace
 
-ReportOrigin reportOrigin(const std::string& author) {
+ReportOrigin reportOrigin() {
+  const std::string_view revision = kGitRevision;
   return {fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
-          author.empty() ? userName() : author, "Nearfit " NEARFIT_VERSION, libraryVersions(), systemName()};
+          userName(),
+          "Nearfit " NEARFIT_VERSION,
+          libraryVersions(),
+          systemName(),
+          std::string(revision == "unknown" ? "" : revision),
+          {}};
+}
+
+std::string importerOfReport() {
+  try {
+    return importerVersion();
+  } catch (const FileError& e) {
+    // Shapes that were read before are kept: a report needs no importer.
+    return "unknown: " + e.problem();
+  }
 }
 
 }  // namespace nearfit

@@ -29,7 +29,8 @@ ReportPictures choosePictures(const FitReportRequest& request, const FitReport& 
     addPicture(pictures, sceneView(request.scene, from.side, path, kSceneWidth, kSceneHeight), kSceneWidth,
                kSceneHeight);
   for (const ComparedFinding* row : rows) {
-    if (row->now == nullptr || pictures.findings.size() == kMaxPicturedFindings) continue;
+    if (row->now == nullptr) continue;
+    if (request.maxPictured != 0 && pictures.findings.size() == request.maxPictured) break;
     FindingViews views = findingViews(request.scene, *row->now, kFindingWidth, kFindingHeight);
     PicturedFinding pictured{
         row, addPicture(pictures, std::move(views.whole), kFindingWidth, kFindingHeight), {}};

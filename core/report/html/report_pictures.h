@@ -45,7 +45,7 @@ struct ReportPictures {
   std::vector<PicturedFinding> findings;
 };
 
-/// Draws the scene from all sides, and the first kMaxPicturedFindings findings of those that the check found now. On
+/// Draws the scene from all sides, and the first FitReportRequest::maxPictured findings of those that the check found now. On
 /// all processors. Throws Cancelled.
 /// @param rows  Findings of the report by severity; must outlive the result.
 ReportPictures drawReportPictures(const FitReportRequest& request, const FitReport& report,

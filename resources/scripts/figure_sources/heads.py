@@ -47,7 +47,7 @@ def _git(root, *arguments):
 
 
 def changes(root):
-    """Files that git knows and that differ from the commit, a line each, as tests/bench/git_revision.cmake counts them: results
+    """Files that git knows and that differ from the commit, a line each, as core/git_revision.cmake counts them: results
     and pages are not what is measured. None without git."""
     return _git(root, "status", "--porcelain", "--untracked-files=no", "--", ".", ":(exclude)tests/*/results/*",
                 ":(exclude)*.md")

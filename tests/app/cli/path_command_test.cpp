@@ -1,5 +1,8 @@
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <functional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -7,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/files/sha256.h"
 #include "core/servo/motion_recording.h"
 #include "tests/app/cli/plate_and_cube.h"
 
@@ -46,6 +50,15 @@ class PathCommand : public PlateAndCube {
   ProcessResult verify(std::vector<std::string> more = {}) {
     more.insert(more.begin(), {"verify", path("in.nfcert"), scene_});
     return runCli(more);
+  }
+  /// Makes in.nfcert by its own words: anything in it may be changed, and its hash is right again.
+  void reseal(const std::function<void(std::string&)>& edit) {
+    constexpr std::size_t kHashDigits = 64, kAfterHash = 4;
+    std::string text = readBytes(path("in.nfcert"));
+    edit(text);
+    const std::string hash = sha256OfBytes({text.data(), text.rfind(",\n  \"sha256\"")});
+    text.replace(text.size() - kHashDigits - kAfterHash, kHashDigits, hash);
+    std::ofstream(path("in.nfcert"), std::ios::binary) << text;
   }
   /// Replaces the first occurrence of a text in a file.
   void change(const std::string& file, const std::string& from, const std::string& to) {
@@ -113,6 +126,122 @@ TEST_F(PathCommand, VerifyRefusesWhicheverFileChangesByAByte) {
   EXPECT_EQ(verify({path("in.nfpath")}).exitCode, 0) << "all is as it was";
 }
 
+TEST_F(PathCommand, TheCertificateAloneIsProvenAnewByTheFilesThatItNames) {
+  makePath();
+  ASSERT_EQ(certify("0.05").exitCode, 0);
+  const auto verifyAlone = [&](std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"verify", path("in.nfcert")});
+    return runCli(more);
+  };
+  const auto verified = verifyAlone({"--json"});
+  ASSERT_EQ(verified.exitCode, 0) << verified.out << verified.err;
+  const auto verdict = nlohmann::json::parse(verified.out);
+  EXPECT_TRUE(verdict.at("verified").get<bool>());
+  EXPECT_TRUE(verdict.at("scene_file_hashed").get<bool>());
+  EXPECT_TRUE(verdict.at("path_file_checked").get<bool>());
+  const auto refusedAfter = [&](const std::string& file, const std::string& from, const std::string& to) {
+    const std::string before = readBytes(file);
+    change(file, from, to);
+    const auto result = verifyAlone();
+    std::ofstream(file, std::ios::binary) << before;
+    EXPECT_EQ(result.exitCode, 3) << file << ": " << result.out << result.err;
+    return result.out;
+  };
+  EXPECT_THAT(refusedAfter(path("in.nfcert"), "in.nfpath", "in.nfpati"), HasSubstr("was changed after"));
+  EXPECT_THAT(refusedAfter(scene_, "  ", " \t"), HasSubstr("the scene file is not the one"));
+  EXPECT_THAT(refusedAfter(path("in.nfpath"), "  ", " \t"), HasSubstr("the path file is not the one"));
+  EXPECT_THAT(refusedAfter(path("plate.obj"), "v ", "v  "), HasSubstr("was changed"));
+  EXPECT_EQ(verifyAlone().exitCode, 0) << "all is as it was";
+}
+
+TEST_F(PathCommand, AFolderThatMovesKeepsItsCertificateAndAMissingFileIsTold) {
+  makePath();
+  ASSERT_EQ(certify("0.05").exitCode, 0);
+  const std::filesystem::path moved = folder_.path() / "moved";
+  std::filesystem::create_directory(moved);
+  for (const char* name : {"plate.obj", "cube.obj", "fit.nearfit", "in.nfpath", "in.nfcert"})
+    std::filesystem::rename(path(name), moved / name);
+  const std::string certificate = (moved / "in.nfcert").string(), scene = (moved / "fit.nearfit").string();
+  EXPECT_EQ(runCli({"verify", certificate}).exitCode, 0);
+  std::filesystem::rename(moved / "in.nfpath", moved / "other.nfpath");
+  const auto withoutPath = runCli({"verify", certificate});
+  EXPECT_EQ(withoutPath.exitCode, 1) << withoutPath.out;
+  EXPECT_THAT(withoutPath.err, HasSubstr("in.nfpath: the certificate names this file"));
+  EXPECT_THAT(withoutPath.err, HasSubstr("verify CERT SCENE PATH"));
+  EXPECT_EQ(runCli({"verify", certificate, scene, (moved / "other.nfpath").string()}).exitCode, 0);
+  const auto unchecked = runCli({"verify", certificate, "--no-path", "--json"});
+  ASSERT_EQ(unchecked.exitCode, 0) << unchecked.out << unchecked.err;
+  EXPECT_FALSE(nlohmann::json::parse(unchecked.out).at("path_file_checked").get<bool>());
+  // A folder in the place of the scene is no scene.
+  std::filesystem::rename(scene, moved / "other.nearfit");
+  std::filesystem::create_directory(scene);
+  const auto folder = runCli({"verify", certificate, "--no-path"});
+  EXPECT_EQ(folder.exitCode, 1) << folder.out;
+  EXPECT_THAT(folder.err, HasSubstr("it is a folder"));
+  EXPECT_THAT(folder.err, HasSubstr("verify CERT SCENE"));
+  EXPECT_EQ(runCli({"verify", certificate, (moved / "other.nearfit").string(), "--no-path"}).exitCode, 0);
+}
+
+TEST_F(PathCommand, ACertificateOfVersionOneNeedsItsSceneNamed) {
+  makePath();
+  ASSERT_EQ(certify("0.05").exitCode, 0);
+  reseal([](std::string& text) {
+    std::string old;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("  \"certificate\"")) line = "  \"certificate\": 1,";
+      if (!line.starts_with("  \"sceneFile\"") && !line.starts_with("  \"pathFile")) old += line + "\n";
+    }
+    text = old;
+  });
+  const auto alone = runCli({"verify", path("in.nfcert")});
+  EXPECT_EQ(alone.exitCode, 2) << alone.out;
+  EXPECT_THAT(alone.err, HasSubstr("it does not name its scene file"));
+  EXPECT_THAT(alone.err, HasSubstr("verify CERT SCENE"));
+  EXPECT_EQ(verify().exitCode, 0);
+  EXPECT_EQ(verify({path("in.nfpath")}).exitCode, 0);
+}
+
+TEST_F(PathCommand, ACertificateOfAnUnsavedSceneIsProvenByItsMeshesAndSaysSo) {
+  makePath();
+  ASSERT_EQ(certify("0.05").exitCode, 0);
+  const auto clear = [](std::string& text, const std::string& member) {
+    const std::size_t at = text.find("\"" + member + "\": \"") + member.size() + 5;
+    text.erase(at, text.find('"', at) - at);
+  };
+  reseal([&](std::string& text) {
+    clear(text, "scene");
+    clear(text, "sceneFile");
+  });
+  const auto alone = runCli({"verify", path("in.nfcert")});
+  EXPECT_EQ(alone.exitCode, 2) << alone.out;
+  EXPECT_THAT(alone.err, HasSubstr("it holds no hash of a scene file"));
+  const auto given = verify();
+  EXPECT_EQ(given.exitCode, 0) << given.out << given.err;
+  EXPECT_THAT(given.out, HasSubstr("holds no hash of a scene file, but of all meshes"));
+  // A part of another name is another scene, whatever the file's hash.
+  change(scene_, "\"Plate\"", "\"Plates\"");
+  EXPECT_EQ(verify().exitCode, 3);
+}
+
+TEST_F(PathCommand, NamesInACertificateAreNotTrusted) {
+  makePath();
+  ASSERT_EQ(certify("0.05").exitCode, 0);
+  const auto renamed = [&](const std::string& from, const std::string& to) {
+    const std::string before = readBytes(path("in.nfcert"));
+    reseal([&](std::string& text) { text.replace(text.find(from), from.size(), to); });
+    const auto result = runCli({"verify", path("in.nfcert")});
+    std::ofstream(path("in.nfcert"), std::ios::binary) << before;
+    return result;
+  };
+  const auto device = renamed("\"fit.nearfit\"", "\"/dev/zero\"");
+  EXPECT_EQ(device.exitCode, 1) << device.out;
+  EXPECT_THAT(device.err, HasSubstr("it is not a regular file"));
+  EXPECT_EQ(renamed("\"fit.nearfit\"", "\"plate.obj\"").exitCode, 3) << "its hash is another";
+  EXPECT_EQ(renamed("\"in.nfpath\"", "\"plate.obj\"").exitCode, 3);
+  EXPECT_EQ(runCli({"verify", path("in.nfcert")}).exitCode, 0);
+}
+
 TEST_F(PathCommand, WhatMakesNoSenseIsWrongUsage) {
   makePath();
   for (const auto& arguments : std::vector<std::vector<std::string>>{
@@ -136,7 +265,8 @@ TEST_F(PathCommand, WhatMakesNoSenseIsWrongUsage) {
            {"certify", path("in.nfpath"), scene_, "-o", path("in.nfpath")},
            {"certify", path("in.nfpath"), scene_, "-o", path("x"), "--separation", "-1"},
            {"certify", path("in.nfpath"), scene_, "-o", path("x"), "--separation", "1e-15"},
-           {"verify", path("in.nfcert")}}) {
+           {"verify"},
+           {"verify", path("in.nfcert"), scene_, path("in.nfpath"), "--no-path"}}) {
     const auto result = runCli(arguments);
     EXPECT_EQ(result.exitCode, 2) << arguments.back() << ": " << result.out << result.err;
     EXPECT_FALSE(std::filesystem::exists(path("x"))) << arguments.back();

@@ -59,6 +59,25 @@ TEST_F(ReportCommand, AReportOfAPathIsOneValidPageWithoutADisplay) {
   EXPECT_EQ(elementsOf(elementWithId(html, "pairs"), "tr").size(), 2U);
 }
 
+TEST_F(ReportCommand, PicturesAreOfAsManyFindingsAsAreAskedFor) {
+  const std::string row = path("row.nearfit");
+  std::vector<std::string> make{"scene", "new", row, "--unit", "m"};
+  for (int i = 0; i < 4; ++i)
+    make.insert(make.end(), {"--part", "Cube " + std::to_string(i) + "=" + path("cube.obj") + "@" +
+                                           std::to_string(1.125 * i) + ",0,0,1,0,0,0"});
+  ASSERT_EQ(runCli(make).exitCode, 0);
+  const auto pictured = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> all{"--threshold", "0.25"};
+    all.insert(all.end(), options.begin(), options.end());
+    const auto result = report(row, all);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return elementsOf(elementWithId(page(), "findings"), "h3").size();
+  };
+  EXPECT_EQ(pictured({}), 3U);
+  EXPECT_EQ(pictured({"--pictures", "2"}), 2U);
+  EXPECT_EQ(pictured({"--pictures", "0"}), 3U);
+}
+
 TEST_F(ReportCommand, AClashEndsWithThreeAndTheReportIsThere) {
   const std::string clashing = path("clash.nearfit");
   ASSERT_EQ(runCli({"scene", "new", clashing, "--unit", "m", "--part", "Plate=" + path("plate.obj"), "--part",
@@ -90,6 +109,8 @@ TEST_F(ReportCommand, WhatMakesNoSenseIsToldAndNothingIsWritten) {
     EXPECT_FALSE(std::filesystem::exists(out_));
   };
   expectFailure({"--threshold", "-1"}, 2, "--threshold");
+  expectFailure({"--pictures", "-1"}, 2, "--pictures");
+  expectFailure({"--pictures", "few"}, 2, "--pictures");
   expectFailure({"--threshold", "1 kg"}, 2, "--threshold");
   expectFailure({"--path", path("felt.csv")}, 1, "it is not a path file");
   expectFailure({"--path", path("none.nfpath")}, 1, "none.nfpath");

@@ -3,6 +3,7 @@
 #include <QToolButton>
 #include <filesystem>
 
+#include "core/files/sha256.h"
 #include "core/path/certificate.h"
 #include "core/path/path_file.h"
 #include "core/path/path_verifier.h"
@@ -95,6 +96,7 @@ class DesktopPathTest : public QObject {
   void aRecordingIsSavedAsAPathOfTheTimelinesRange();
   void theClearanceAlongAPathIsShown();
   void aFreePathIsCertifiedAndTheCertificateIsProvenAnew();
+  void aCertificateOfASavedSceneNamesItsFile();
   void theSeparationsOfferedAreRoundedDown_data();
   void theSeparationsOfferedAreRoundedDown();
   void whatIsNotProvenIsShownWhereItIs();
@@ -196,6 +198,29 @@ void DesktopPathTest::aFreePathIsCertifiedAndTheCertificateIsProvenAnew() {
   QVERIFY2(certificate.sceneSha256.empty(), "the scene was not saved");
   const Verification verified = verifyCertificate(certificate, f.d.session().scene(), {}, std::nullopt);
   QVERIFY2(verified.isProven(), verified.problem.c_str());
+  QCOMPARE(certificate.sceneFile, std::string());
+  QCOMPARE(certificate.pathFile, std::string("in.nfpath"));
+  QCOMPARE(certificate.pathFileSha256, sha256OfFile(f.d.folder.path() / "in.nfpath"));
+}
+
+void DesktopPathTest::aCertificateOfASavedSceneNamesItsFile() {
+  PathFixture f;
+  f.d.session().save(f.d.folder.path() / "cubes.nearfit");
+  const auto save = [&f](const std::filesystem::path& file) {
+    f.certify();
+    DialogAnswers answers;
+    answers.expectFile(QString::fromStdString(file.string()));
+    f.choose("saveCertificate", answers);
+  };
+  f.open(f.writePath("moving", placeAt(0.03, 0.0)));
+  const auto proofs = f.d.folder.path() / "proofs";
+  std::filesystem::create_directory(proofs);
+  save(proofs / "in.nfcert");
+  QTRY_VERIFY(std::filesystem::exists(proofs / "in.nfcert"));
+  const Certificate certificate = parseCertificate(readBytes(proofs / "in.nfcert"), proofs / "in.nfcert");
+  QCOMPARE(certificate.sceneFile, std::string("../cubes.nearfit"));
+  QCOMPARE(certificate.sceneSha256, sha256OfFile(f.d.folder.path() / "cubes.nearfit"));
+  QCOMPARE(certificate.pathFile, std::string("../in.nfpath"));
 }
 
 void DesktopPathTest::theSeparationsOfferedAreRoundedDown_data() {

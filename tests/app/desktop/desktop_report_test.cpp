@@ -1,4 +1,5 @@
 #include <QMessageBox>
+#include <QSpinBox>
 #include <QStatusBar>
 
 #include "tests/app/desktop/desktop_driver.h"
@@ -18,6 +19,7 @@ class DesktopReportTest : public QObject {
   void aReportHasTheVerdictAndTheHashOfTheSavedScene();
   void theThresholdIsTheOneThatIsTyped();
   void theThresholdOfTheSceneCheckIsOffered();
+  void asManyFindingsHavePicturesAsAreTyped();
   void theSceneIsReportedAsItIsAndNotAsItWasSaved();
   void aCertificateThatCannotBeReadIsToldAndNothingIsWritten();
   void cancellingWritesNothing();
@@ -79,6 +81,33 @@ void DesktopReportTest::theThresholdIsTheOneThatIsTyped() {
   QTRY_VERIFY(std::filesystem::exists(report));
   QVERIFY(textOf(report, "summary").contains(QStringLiteral("all are farther apart than 4 mm")));
   QVERIFY(textOf(report, "inputs").contains(QStringLiteral("was not saved")));
+}
+
+void DesktopReportTest::asManyFindingsHavePicturesAsAreTyped() {
+  DesktopDriver d;
+  d.addCubes();
+  const PartId third = d.session().duplicatePart(d.partId("moving"));
+  d.session().movePart(third, {{1, 0, 0, 0}, {0, 0, 0.025}});
+  const auto report = d.folder.path() / "cubes.html";
+  const auto pictured = [&](const QString& typed) {
+    d.window().statusBar()->clearMessage();
+    whenModal<ui::ReportDialog>([typed](ui::ReportDialog* dialog) {
+      auto* field = dialog->findChild<QSpinBox*>(QStringLiteral("reportPictures"));
+      QCOMPARE(field->value(), 30);
+      field->setFocus();
+      field->selectAll();
+      QTest::keyClicks(field, typed);
+      dialog->findChild<ui::NumberField*>(QStringLiteral("reportThreshold"))->showQuantity(0.01);
+      QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save),
+                        Qt::LeftButton);
+    });
+    answerFile(report);
+    d.choose("report");
+    [&] { QTRY_VERIFY(d.window().statusBar()->currentMessage().startsWith(QStringLiteral("Wrote"))); }();
+    return elementsOf(elementWithId(htmlDocument(readBytes(report)), "findings"), "h3").size();
+  };
+  QCOMPARE(pictured(QStringLiteral("1")), std::size_t{1});
+  QCOMPARE(pictured(QStringLiteral("0")), std::size_t{2});
 }
 
 /// That of the springs was, ten times as much.

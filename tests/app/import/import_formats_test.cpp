@@ -18,6 +18,7 @@
 
 #include "core/base/error.h"
 #include "core/files/sha256.h"
+#include "core/import/import_process.h"
 #include "core/import/mesh_import.h"
 #include "core/scene/document_load.h"
 #include "tests/app/import/import_fixture.h"
@@ -36,6 +37,12 @@ using test::imported;
 using test::importModel;
 using test::TemporaryFolder;
 using testing::HasSubstr;
+
+TEST(Importer, SaysItsVersionAndThatOfOpenCascade) {
+  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  EXPECT_THAT(importerVersion(),
+              testing::MatchesRegex("nearfit-import [0-9.]+, OpenCASCADE [0-9]+\\.[0-9]+.*"));
+}
 
 void expectBox(const Aabb& box, const glm::dvec3& lower, const glm::dvec3& upper, double tolerance = 1e-9) {
   EXPECT_LE(glm::distance(box.lower, lower), tolerance)

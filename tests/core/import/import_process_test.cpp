@@ -82,6 +82,21 @@ TEST_F(ImportProcess, ItGetsTheFileAndTheOptionsAndNoOtherDescriptors) {
   EXPECT_EQ(test::readBytes(folder_.path() / "open"), "0 1 2 3 4 5 ");
 }
 
+TEST_F(ImportProcess, ItIsAskedForItsVersionAndThatOfOpenCascade) {
+  const auto versionBy = [&](const std::string& lines) {
+    const ScopedVariable chosen("NEARFIT_IMPORT", script(lines).string());
+    return importerVersion();
+  };
+  EXPECT_EQ(versionBy("[ \"$*\" = --version ] && printf 'it 9.8\\nOpenCASCADE 7.6.5\\nsandbox: x\\n'"),
+            "it 9.8, OpenCASCADE 7.6.5");
+  EXPECT_THROW(versionBy("exit 0"), FileError);
+  EXPECT_THROW(versionBy("printf 'it 9.8\\nsomething else\\n'"), FileError);
+  EXPECT_THROW(versionBy("printf 'it 9.8\\nOpenCASCADE 7.6.5\\n'; exit 1"), FileError);
+  EXPECT_THROW(versionBy("kill -SEGV $$"), FileError);
+  const ScopedVariable none("NEARFIT_IMPORT", (folder_.path() / "none").string());
+  EXPECT_THROW(importerVersion(), FileError);
+}
+
 TEST_F(ImportProcess, AnExporterGetsItsRequestAndNoOtherDescriptors) {
   const std::string request(100'000, 'r');
   const std::vector<std::byte> result =

@@ -7,17 +7,26 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QVBoxLayout>
 
+#include "core/report/html/fit_report.h"
 #include "ui/widgets/font_scale.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/preferences.h"
 
 namespace nearfit::ui {
+namespace {
+
+/// More findings than this a scene has where something else is wrong; all of them can be asked for.
+constexpr int kMostPictures = 9999;
+
+}  // namespace
 
 ReportDialog::ReportDialog(double threshold, QWidget* parent)
     : QDialog(parent),
       threshold_(new NumberField(this)),
+      pictures_(new QSpinBox(this)),
       path_(new QLineEdit(this)),
       certificate_(new QLineEdit(this)) {
   setObjectName(QStringLiteral("reportDialog"));
@@ -35,6 +44,13 @@ ReportDialog::ReportDialog(double threshold, QWidget* parent)
   threshold_->setQuantityStep(1e-4);
   threshold_->showQuantity(threshold);
   threshold_->setHelp(tr("Pairs of parts that are no farther apart are listed and shown"));
+  pictures_->setObjectName(QStringLiteral("reportPictures"));
+  pictures_->setRange(0, kMostPictures);
+  pictures_->setSpecialValueText(tr("all"));
+  pictures_->setValue(static_cast<int>(kDefaultPicturedFindings));
+  pictures_->setToolTip(
+      tr("So many findings are shown in pictures, the worst first; 0: all of them. Each takes about "
+         "a hundred kilobytes of the file"));
   path_->setObjectName(QStringLiteral("reportPath"));
   certificate_->setObjectName(QStringLiteral("reportCertificate"));
   path_->setToolTip(
@@ -45,6 +61,7 @@ ReportDialog::ReportDialog(double threshold, QWidget* parent)
 
   auto* form = new QFormLayout;
   form->addRow(tr("&Threshold"), threshold_);
+  form->addRow(tr("P&ictures of findings"), pictures_);
   auto* pathLabel = new QLabel(tr("&Path"), this);
   pathLabel->setBuddy(path_);
   form->addRow(pathLabel, makeFileField(*path_, tr("Path"), tr("Paths (*.nfpath)")));
@@ -88,6 +105,10 @@ QWidget* ReportDialog::makeFileField(QLineEdit& field, const QString& title, con
 
 double ReportDialog::threshold() const {
   return threshold_->quantity();
+}
+
+std::size_t ReportDialog::pictures() const {
+  return static_cast<std::size_t>(pictures_->value());
 }
 
 QString ReportDialog::pathFile() const {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <QDialog>
+#include <cstddef>
 
 class QLineEdit;
+class QSpinBox;
 
 namespace nearfit::ui {
 
@@ -18,6 +20,8 @@ class ReportDialog : public QDialog {
 
   /// Max distance of pairs that are found [m].
   double threshold() const;
+  /// Number of findings to show in pictures; 0: each.
+  std::size_t pictures() const;
   /// Files that the user chose; empty: none.
   QString pathFile() const;
   QString certificateFile() const;
@@ -26,6 +30,7 @@ class ReportDialog : public QDialog {
   QWidget* makeFileField(QLineEdit& field, const QString& title, const QString& filter);
 
   NumberField* threshold_;
+  QSpinBox* pictures_;
   QLineEdit *path_, *certificate_;
 };
 

@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QDialog>
 #include <QFileInfo>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -30,6 +31,7 @@ struct ReportWork {
   Scene scene;
   std::filesystem::path sceneFile, path, certificate, target;
   double threshold = 0.0;  ///< [m]
+  std::size_t pictures = kDefaultPicturedFindings;
   bool isAsSaved = false;  ///< The scene is what its file holds.
 };
 
@@ -47,6 +49,7 @@ std::string savedHash(const ReportWork& work) {
 FitReportOutcome makeReport(const ReportWork& work, const ProgressCallback& progress) {
   lowerThreadPriority();
   FitReportRequest request = fitReportRequest(work.scene, work.sceneFile, savedHash(work), work.threshold);
+  request.maxPictured = work.pictures;
   if (!work.path.empty()) addPath(request, work.path);
   if (!work.certificate.empty()) addCertificate(request, work.certificate);
   return writeFitReport(request, work.target, progress);
@@ -105,12 +108,13 @@ void Reporter::askAndWrite() {
                   {tr("Web pages (*.html *.htm)")},
                   {QStringLiteral("html"), QStringLiteral("htm")}},
                  window_);
-  if (file) write(dialog.threshold(), dialog.pathFile(), dialog.certificateFile(), *file);
+  if (file) write(dialog, *file);
 }
 
-void Reporter::write(double threshold, const QString& path, const QString& certificate, const QString& file) {
-  const ReportWork work{presentScene(), session_.file(), toPath(path), toPath(certificate),
-                        toPath(file),   threshold,       isAsSaved()};
+void Reporter::write(const ReportDialog& dialog, const QString& file) {
+  const ReportWork work{
+      presentScene(), session_.file(),    toPath(dialog.pathFile()), toPath(dialog.certificateFile()),
+      toPath(file),   dialog.threshold(), dialog.pictures(),         isAsSaved()};
   // Set by the job, and read once it has ended.
   const auto outcome = std::make_shared<FitReportOutcome>();
   const auto job = [work, outcome](const ProgressCallback& progress) {

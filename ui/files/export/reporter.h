@@ -12,6 +12,7 @@ class QWidget;
 
 namespace nearfit::ui {
 
+class ReportDialog;
 class SceneWork;
 
 /// Writes reports of the scene: asks what they are to hold and where they go, makes them in another thread that takes
@@ -47,7 +48,7 @@ class Reporter : public QObject {
   bool isAsSaved() const;
   void updateAction();
   void askAndWrite();
-  void write(double threshold, const QString& path, const QString& certificate, const QString& file);
+  void write(const ReportDialog& dialog, const QString& file);
 
   Session& session_;
   const SceneWork& work_;

@@ -53,6 +53,17 @@ AssemblyPath improved(const Scene& scene, AssemblyPath path, const PathWishes& w
   return path;
 }
 
+/// Hash of a path file; empty unless it holds the path.
+std::string hashIfItHolds(const AssemblyPath& path, const std::filesystem::path& file) {
+  try {
+    std::string sha256 = sha256OfFile(file);
+    return isSamePath(readPathFile(file), path) ? sha256 : std::string();
+  } catch (const FileError&) {
+    // It was moved away or changed; the certificate holds the path itself.
+    return {};
+  }
+}
+
 QString partName(const Scene& scene, PartId id) {
   return shortName(scene.get(id).name);
 }
@@ -270,10 +281,12 @@ void PathCommands::certify() {
   certified->scene = scene;
   certified->path = *path;
   const bool isSaved = !context_.session.file().empty() && !context_.session.isModified();
+  if (isSaved) certified->sceneFile = context_.session.file();
   const auto work = [certified, separation = *separation,
-                     file = isSaved ? context_.session.file()
-                                    : std::filesystem::path()](const ProgressCallback& progress) {
-    if (!file.empty()) certified->sceneSha256 = sha256OfFile(file);
+                     pathFile = context_.replay.pathFile()](const ProgressCallback& progress) {
+    if (!certified->sceneFile.empty()) certified->sceneSha256 = sha256OfFile(certified->sceneFile);
+    if (!pathFile.empty()) certified->pathSha256 = hashIfItHolds(certified->path, pathFile);
+    if (!certified->pathSha256.empty()) certified->pathFile = pathFile;
     const PathCertifier certifier(certified->scene, certified->path, separation,
                                   stageCallback(progress, 0.0, kPrepared));
     certified->proof = certifier.prove(certified->path, stageCallback(progress, kPrepared, 1.0));
@@ -312,8 +325,12 @@ void PathCommands::saveCertificate() {
       askForFile(tr("Save certificate"), tr("Certificates (*.nfcert)"), QStringLiteral("nfcert"));
   if (!file || certified_ == nullptr) return;
   const auto work = [certified = certified_, to = toPath(*file)](const ProgressCallback&) {
-    atomicWrite(to, certificateText(certificateOf(certified->scene, certified->path, certified->proof,
-                                                  certified->sceneSha256)));
+    Certificate certificate =
+        certificateOf(certified->scene, certified->path, certified->proof, certified->sceneSha256);
+    certificate.pathFileSha256 = certified->pathSha256;
+    if (!certified->sceneFile.empty()) certificate.sceneFile = certifiedName(certified->sceneFile, to);
+    if (!certified->pathFile.empty()) certificate.pathFile = certifiedName(certified->pathFile, to);
+    atomicWrite(to, certificateText(certificate));
   };
   run(tr("Writing"), tr("The certificate could not be saved."), work,
       [this, file = *file] { noteExported(file); });

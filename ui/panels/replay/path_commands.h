@@ -2,6 +2,7 @@
 
 #include <QList>
 #include <QObject>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -55,6 +56,8 @@ class PathCommands : public QObject {
     AssemblyPath path;
     PathProof proof;
     std::string sceneSha256;  ///< Hash of the scene file; empty if the scene is not as saved.
+    std::string pathSha256;   ///< Hash of the path file; empty if none holds the path.
+    std::filesystem::path sceneFile, pathFile;  ///< Empty without these hashes.
   };
   QAction* add(const char* name, const QString& text, const QString& help, void (PathCommands::*command)());
   void updateActions();

@@ -160,6 +160,7 @@ void Replay::begin(const QString& file, std::vector<MotionRow> rows, std::option
     if (!refusal.isEmpty()) return emit failed({tr("The path cannot be played."), refusal});
   }
   path_ = std::move(path);
+  pathFile_ = path_ ? toPath(file) : std::filesystem::path();
   moving_ = *session_.scene().movingPart();
   movingGroup_ = session_.scene().movingGroup();
   playback_.emplace(std::move(rows));
@@ -185,6 +186,7 @@ void Replay::close() {
   timeline_.showRecording({}, {});
   playback_.reset();
   path_.reset();
+  pathFile_.clear();
   view_.poses().show(ShownPoses::Source::Replay, {});
   view_.clearSnapshot();
   emit closed();

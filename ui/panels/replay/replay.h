@@ -3,6 +3,7 @@
 #include <QElapsedTimer>
 #include <QObject>
 #include <QTimer>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -54,6 +55,8 @@ class Replay : public QObject {
   bool isOpen() const noexcept { return playback_.has_value(); }
   /// The path that is open; std::nullopt for a recording, or if nothing is open.
   const std::optional<AssemblyPath>& path() const noexcept { return path_; }
+  /// File of the path that is open; empty for a recording, or if nothing is open.
+  const std::filesystem::path& pathFile() const noexcept { return pathFile_; }
   /// The motion that is open as a path, from one time of the timeline to another [s]. Its times are those of the
   /// recording or of the path file. Throws UsageError like pathOfMotion() and trimmed().
   AssemblyPath pathBetween(double from, double to) const;
@@ -107,6 +110,7 @@ class Replay : public QObject {
   BackgroundTask task_;
   std::optional<MotionPlayback> playback_;
   std::optional<AssemblyPath> path_;
+  std::filesystem::path pathFile_;
   PartId moving_{};                     ///< Part that the recording moves.
   std::optional<GroupId> movingGroup_;  ///< Set if that part leads a group.
   std::unique_ptr<ServoSnapshot> shown_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "tests/support/part_geometries.h"
 #include "tests/support/path_scenes.h"
 #include "tests/support/png_picture.h"
+#include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::fit_report_test {
@@ -27,7 +29,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-const ReportOrigin kOrigin{"2026-01-31T12:00:00Z", "Ada", "Nearfit 0.0.0", "none 1.0", "Test 1, x"};
+const ReportOrigin kOrigin{"2026-01-31T12:00:00Z", "Ada",       "Nearfit 0.0.0", "none 1.0", "Test 1, x",
+                           "0123456789ab",         "reader 2.0"};
 
 Part box(const char* name, const glm::dvec3& place) {
   return test::partOf(test::solidGeometryOf(test::boxMesh(glm::dvec3(1.0))), name,
@@ -216,10 +219,63 @@ TEST(FitReport, APageOfManyFindingsIsBoundedAndSaysWhatItLeavesOut) {
   const test::HtmlElement page = test::htmlDocument(text);
   EXPECT_EQ(rowsOf(page, "pairs").size(), kMaxFindingRows);
   EXPECT_THAT(textOfSection(page, "pairs"), HasSubstr("4 more pairs are left out of this page."));
-  EXPECT_THAT(
-      textOfSection(page, "findings"),
-      HasSubstr(fmt::format("{} more findings are left out", kMaxFindingRows + 4 - kMaxPicturedFindings)));
-  EXPECT_LE(test::elementsOf(page, "img").size(), 4 + 2 * kMaxPicturedFindings);
+  EXPECT_THAT(textOfSection(page, "findings"),
+              HasSubstr(fmt::format("{} more findings are left out",
+                                    kMaxFindingRows + 4 - kDefaultPicturedFindings)));
+  EXPECT_LE(test::elementsOf(page, "img").size(), 4 + 2 * kDefaultPicturedFindings);
+}
+
+TEST(FitReport, AsManyFindingsHavePicturesAsAreAskedFor) {
+  Scene scene;
+  const PartGeometryPtr geometry = test::geometryOf(test::boxMesh(glm::dvec3(1.0)));
+  constexpr int kBoxes = static_cast<int>(kDefaultPicturedFindings) + 3;
+  for (int i = 0; i < kBoxes; ++i)
+    scene.add(test::partOf(geometry, "Box", {glm::dquat(1, 0, 0, 0), glm::dvec3(1.125 * i, 0, 0)}));
+  FitReportRequest request = requestOf(scene, 0.25);
+  const FitReport report = makeFitReport(request);
+  const auto pictured = [&](std::size_t count) {
+    request.maxPictured = count;
+    const auto page = test::htmlDocument(fitReportPage(request, report));
+    const auto sections = test::elementsOf(test::elementWithId(page, "findings"), "h3");
+    EXPECT_EQ(textOfSection(page, "findings").find("left out of this page") == std::string::npos,
+              sections.size() == kBoxes - 1U);
+    return sections.size();
+  };
+  EXPECT_EQ(pictured(kDefaultPicturedFindings), kDefaultPicturedFindings);
+  EXPECT_EQ(pictured(2), 2U);
+  EXPECT_EQ(pictured(500), kBoxes - 1U);
+  EXPECT_EQ(pictured(0), kBoxes - 1U) << "each";
+}
+
+TEST(FitReport, TheVersionsHaveTheRevisionAndTheReaderOfDocuments) {
+  FitReportRequest request = requestOf(boxes(), 0.25);
+  const FitReport report = makeFitReport(request);
+  const auto versions = [&] {
+    return textOfSection(test::htmlDocument(fitReportPage(request, report)), "versions");
+  };
+  EXPECT_THAT(versions(), HasSubstr("0123456789ab"));
+  EXPECT_THAT(versions(), HasSubstr("reader 2.0"));
+  request.origin.revision = request.origin.importer = "";
+  EXPECT_THAT(versions(), Not(HasSubstr("Revision")));
+  EXPECT_THAT(versions(), Not(HasSubstr("Reader")));
+}
+
+TEST(FitReport, TheImporterIsAskedWhereAPartComesFromADocument) {
+  const test::TemporaryFolder folder;
+  const auto importer =
+      folder.write("importer", "#!/bin/sh\necho nearfit-import 9.8\necho OpenCASCADE 7.6.5\n");
+  std::filesystem::permissions(importer, std::filesystem::perms::owner_all);
+  const test::ScopedVariable chosen("NEARFIT_IMPORT", importer.string());
+  Scene scene = boxes();
+  EXPECT_EQ(fitReportRequest(scene, {}, {}, 0.25).origin.importer, "") << "no part comes from a document";
+  const auto geometry = std::make_shared<PartGeometry>(*scene.parts()[1]->geometry);
+  geometry->shapeKey = "0:1:1:2";
+  Part lid = *scene.parts()[1];
+  lid.geometry = geometry;
+  scene.replace(lid);
+  EXPECT_EQ(fitReportRequest(scene, {}, {}, 0.25).origin.importer, "nearfit-import 9.8, OpenCASCADE 7.6.5");
+  folder.write("importer", "#!/bin/sh\nexit 1\n");
+  EXPECT_THAT(fitReportRequest(scene, {}, {}, 0.25).origin.importer, StartsWith("unknown: "));
 }
 
 TEST(FitReport, TheSameRequestGivesTheSamePage) {

@@ -15,7 +15,8 @@ endif()
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT
 "#pragma once
 
-namespace nearfit::bench {
+namespace nearfit {
+/// Revision of the sources; \"-dirty\" where they differ from it, \"unknown\" without git.
 inline constexpr const char* kGitRevision = \"@revision@\";
 }
 " @ONLY)
