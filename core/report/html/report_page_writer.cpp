@@ -16,7 +16,7 @@ constexpr const char* kPageStyle =
     "  print-color-adjust: exact; -webkit-print-color-adjust: exact; }\n"
     "h1 { font-size: 18pt; margin: 0 0 2mm; overflow-wrap: anywhere; }\n"
     "h2 { font-size: 13pt; margin: 8mm 0 2mm; border-bottom: 0.3mm solid #999; break-after: avoid; }\n"
-    "h2 + p { break-after: avoid; }\n"
+    "h2 + p { break-after: avoid; break-inside: avoid; }\n"
     "h3 { font-size: 11pt; margin: 5mm 0 1mm; break-after: avoid; overflow-wrap: anywhere; }\n"
     "table { border-collapse: collapse; width: 100%; font-size: 8.5pt; }\n"
     "thead { display: table-header-group; }\n"
@@ -24,7 +24,7 @@ constexpr const char* kPageStyle =
     "th, td { border: 0.2mm solid #bbb; padding: 0.8mm 1.2mm; text-align: left; vertical-align: top;\n"
     "  overflow-wrap: anywhere; }\n"
     "th { background: #eee; overflow-wrap: normal; }\n"
-    "td { min-width: 17mm; }\n"
+    "td { min-width: 19mm; }\n"
     "td.number { text-align: right; overflow-wrap: normal; min-width: 0; }\n"
     "td.number data { white-space: nowrap; }\n"
     "dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.6mm 4mm; margin: 0; }\n"
@@ -41,7 +41,6 @@ constexpr const char* kPageStyle =
     "figure { margin: 0; } figcaption { font-size: 8.5pt; color: #333; }\n"
     "img, svg { display: block; width: 100%; height: auto; border: 0.2mm solid #ccc; padding: 0.3mm; }\n"
     "div.figures img { max-height: 52mm; object-fit: contain; }\n"
-    "svg text { paint-order: stroke; stroke: #fff; stroke-width: 3px; }\n"
     "section.finding { break-inside: avoid; }\n"
     "ul, ol { margin: 1mm 0; padding-left: 6mm; }\n";
 
