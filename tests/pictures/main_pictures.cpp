@@ -7,18 +7,25 @@
 #include <QDialog>
 #include <QDir>
 #include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QFile>
 #include <QMenu>
 #include <QMenuBar>
+#include <QPainter>
 #include <QTabWidget>
+#include <QTableView>
+#include <QToolButton>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 
+#include "core/path/path_file.h"
 #include "core/recovery/recovery_folder.h"
 #include "core/servo/motion_recording.h"
 #include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/dialog_answers.h"
 #include "tests/app/desktop/fake_device.h"
 #include "ui/files/recovery/recovery.h"
 #include "ui/files/unit_dialog.h"
@@ -37,6 +44,16 @@ constexpr std::size_t kDemoParts = 4;
 constexpr int kSettleMs = 350;  ///< For layout, and the pictures of the view that follow.
 /// Ticks of the scripted hand until it presses and turns.
 constexpr std::uint64_t kFeelFor = 2450;
+/// Where the sensor on the housing is drawn [m].
+constexpr glm::dvec3 kSensor(0.02, 0.0, 0.03);
+
+/// The box of a part along the world's axes.
+Aabb worldBounds(const Part& part) {
+  Aabb box;
+  for (const glm::dvec3& vertex : part.geometry->mesh.vertices())
+    box.add(part.worldFromPart.applyToPoint(vertex));
+  return box;
+}
 
 class Pictures {
  public:
@@ -64,6 +81,7 @@ class Pictures {
     feeling();
     recording();
     device();
+    verdicts();
     documents();
     return failures_ == 0;
   }
@@ -72,8 +90,11 @@ class Pictures {
   void settle() { QTest::qWait(kSettleMs); }
   void grab(QWidget& widget, const QString& name) {
     settle();
+    savePicture(widget.grab(), name);
+  }
+  void savePicture(const QPixmap& picture, const QString& name) {
     const QString file = QDir(folder_).filePath(name + QStringLiteral(".png"));
-    if (widget.grab().save(file, "PNG")) return;
+    if (picture.save(file, "PNG")) return;
     std::fprintf(stderr, "nearfit-pictures: %s cannot be written\n", qPrintable(file));
     ++failures_;
   }
@@ -93,11 +114,26 @@ class Pictures {
     std::fprintf(stderr, "nearfit-pictures: waited for %s in vain\n", what);
     ++failures_;
   }
-  /// What `open` opens, a modal dialog, with its tabs in turn; closed again.
-  void grabDialog(const QString& name, const std::function<void()>& open) {
+  /// The window with a card before it, as the screen has them.
+  void grabWindowWith(QWidget& card, const char* name) {
+    settle();
+    QPixmap picture = driver_.window().grab();
+    QPainter painter(&picture);
+    const QRect place(driver_.window().mapFromGlobal(card.mapToGlobal(QPoint(0, 0))), card.size());
+    painter.drawPixmap(place.topLeft(), card.grab());
+    // There is no window manager that frames it.
+    painter.setPen(card.palette().color(QPalette::Mid));
+    painter.drawRect(place);
+    painter.end();
+    savePicture(picture, QLatin1String(name));
+  }
+  /// What `open` opens, a modal dialog, once `fill` has filled it in; closed again.
+  void grabDialog(const QString& name, const std::function<void()>& open,
+                  const std::function<void(QDialog&)>& fill = {}) {
     const auto wasThere = std::make_shared<bool>(false);
-    whenModal<QDialog>([this, wasThere, name](QDialog* dialog) {
+    whenModal<QDialog>([this, wasThere, name, fill](QDialog* dialog) {
       *wasThere = true;
+      if (fill) fill(*dialog);
       grab(*dialog, QStringLiteral("dialog-") + name);
       dialog->reject();
     });
@@ -348,6 +384,148 @@ class Pictures {
     driver_.window().resize(before);
   }
 
+  void press(const char* button) {
+    QTest::mouseClick(driver_.widget<QAbstractButton>(button), Qt::LeftButton);
+  }
+  void expectNone(const DialogAnswers& answers) {
+    for (const QString& fault : answers.faults()) {
+      std::fprintf(stderr, "nearfit-pictures: not as expected: %s\n", qPrintable(fault));
+      ++failures_;
+    }
+  }
+  /// A box as a mesh file of this name; size and centre in metres.
+  QString boxFile(const char* name, const glm::dvec3& size, const glm::dvec3& centre) {
+    return writeOff(driver_.folder.path() / (std::string(name) + ".off"), boxMesh(size, centre));
+  }
+
+  /// A housing, a plug that is 5 mm deep in its side, a cover that stands on it, and a sensor that is clear of them.
+  void openHousing() {
+    driver_.session().reset();
+    driver_.add({boxFile("Housing", {0.08, 0.05, 0.02}, {0.0, 0.0, 0.0}),
+                 boxFile("Plug", {0.02, 0.016, 0.012}, {0.045, 0.0, 0.0}),
+                 boxFile("Cover", {0.04, 0.04, 0.006}, {-0.015, 0.0, 0.013}),
+                 boxFile("Sensor", {0.01, 0.01, 0.01}, kSensor)});
+    wait([this] { return driver_.session().scene().parts().size() == 4; }, "the housing");
+    driver_.session().setMovingPart(driver_.partId("Sensor"));
+    driver_.session().save(driver_.folder.path() / "housing.nearfit");
+    driver_.window().selection().select(std::nullopt);
+    driver_.partsView()->expandAll();
+    trigger("viewIso");
+    trigger("fit");
+    settle();
+  }
+  /// *Check scene*, the suggestion of a path, a path with its clearance, and a report.
+  void verdicts() {
+    openHousing();
+    sceneCheck();
+    report();
+    suggestion();
+    certifiedPath();
+  }
+  void sceneCheck() {
+    trigger("checkScene");
+    auto* table = driver_.widget<QTableView>("sceneCheckTable");
+    wait([&] { return table->isVisible(); }, "the panel of checks");
+    driver_.type<QDoubleSpinBox>("sceneCheckThreshold", "10 mm");
+    press("runSceneCheck");
+    wait([&] { return table->model()->rowCount() == 2; }, "the check of the scene");
+    // The worst comes first. Its place is framed over a while.
+    QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
+                      table->visualRect(table->model()->index(0, 0)).center());
+    auto* label = driver_.window().viewport().findChild<QLabel*>(QStringLiteral("pairLabel"));
+    wait([&] { return label->isVisible(); }, "the mark of the clash");
+    QTest::qWait(1000);
+    grabWindow("guide-check-scene");
+    atWork();
+    grabDialog(QStringLiteral("rules"), [this] { press("ruleForPair"); });
+    grabDialog(
+        QStringLiteral("accept"), [this] { press("acceptFinding"); },
+        [](QDialog& dialog) {
+          QTest::keyClicks(dialog.findChild<QLineEdit*>(QStringLiteral("acceptReason")),
+                           QStringLiteral("Pressed in, then glued"));
+        });
+    trigger("fit");
+  }
+  /// The page goes beside the pictures, for a browser.
+  void report() {
+    grabDialog(QStringLiteral("report"), [this] { trigger("report"); });
+    const QString page = QDir(QDir(folder_).absolutePath()).filePath(QStringLiteral("report.html"));
+    QFile::remove(page);
+    DialogAnswers answers;
+    answers.expectButton(QStringLiteral("reportDialog"), QDialogButtonBox::Save).expectFile(page);
+    trigger("report");
+    wait([&] { return QFile::exists(page); }, "the report");
+    expectNone(answers);
+  }
+  /// The sensor was put down in front of the housing: the way to where it was drawn.
+  void suggestion() {
+    driver_.widget<QDockWidget>("sceneCheckDock")->hide();
+    driver_.session().movePart(driver_.partId("Sensor"), {{1, 0, 0, 0}, {0.0, -0.05, -0.03}});
+    trigger("fit");
+    const auto wantDrawn = [](QDialog& dialog) {
+      QTest::mouseClick(dialog.findChild<QRadioButton*>(QStringLiteral("suggestToDrawn")), Qt::LeftButton);
+    };
+    grabDialog(QStringLiteral("suggest"), [this] { trigger("suggestPath"); }, wantDrawn);
+    DialogAnswers answers;
+    answers.expect(QStringLiteral("suggestDialog"), [&](QDialog& dialog) {
+      wantDrawn(dialog);
+      QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
+      return true;
+    });
+    trigger("suggestPath");
+    const auto card = [this] { return driver_.widget<QDialog>("suggestionCard"); };
+    wait([&] { return card() != nullptr && card()->isVisible(); }, "a suggestion");
+    expectNone(answers);
+    if (card() == nullptr) return;
+    // The ghost is on its way.
+    QTest::qWait(1200);
+    grabWindowWith(*card(), "guide-suggested-path");
+    card()->reject();
+    wait([&] { return card() == nullptr; }, "the end of the suggestion");
+    trigger("undo");
+  }
+  /// The sensor comes down beside the cover, to 2 mm from it and 3 mm from the housing; certified.
+  void certifiedPath() {
+    const glm::dvec3 corners[] = {{0.005, 0.0, 0.0}, {0.005, 0.0, -0.012}, {-0.008, 0.0, -0.012}};
+    constexpr int kPosesOfLeg = 40;
+    AssemblyPath path;
+    path.parts = {"Sensor"};
+    path.centre = kSensor;
+    for (int i = 0; i <= 2 * kPosesOfLeg; ++i) {
+      const int leg = std::min(i / kPosesOfLeg, 1);
+      const double share = static_cast<double>(i) / kPosesOfLeg - leg;
+      path.poses.push_back({0.05 * i, {{1, 0, 0, 0}, glm::mix(corners[leg], corners[leg + 1], share)}});
+    }
+    const std::filesystem::path file = driver_.folder.path() / "sensor.nfpath";
+    writePathFile(path, file);
+    {
+      DialogAnswers answers;
+      answers.expectFile(ui::fromPath(file));
+      trigger("openRecording");
+      auto* name = driver_.widget<QLabel>("timelineName");
+      wait([&] { return name->isVisible() && name->text() == QStringLiteral("sensor.nfpath"); }, "the path");
+      expectNone(answers);
+    }
+    trigger("plotPathClearance");
+    wait(
+        [this] {
+          return driver_.action("certifyPath")->isEnabled() &&
+                 !driver_.text("timelineNote").contains(QStringLiteral("Clearance –"));
+        },
+        "the clearance along the path");
+    grabDialog(QStringLiteral("save-path"), [this] { trigger("savePath"); });
+    grabDialog(QStringLiteral("swept-volume"), [this] { trigger("exportSwept"); });
+    grabDialog(QStringLiteral("certify"), [this] { trigger("certifyPath"); });
+    DialogAnswers answers;
+    answers.expectButton(QStringLiteral("certifyDialog"), QDialogButtonBox::Ok);
+    trigger("certifyPath");
+    wait([this] { return !driver_.text("timelineResult").isEmpty(); }, "the certificate");
+    expectNone(answers);
+    grabWindow("guide-path");
+    QTest::mouseClick(driver_.widget<QAbstractButton>("timelineClose"), Qt::LeftButton);
+    driver_.widget<QDockWidget>("timelineDock")->hide();
+  }
+
   /// Opens a file of the models beside the repository in a scene of its own.
   bool openModel(const char* name) {
     const std::filesystem::path file = std::filesystem::path(NEARFIT_SHARED_DIR) / "models" / "public" / name;
@@ -384,7 +562,45 @@ class Pictures {
       grabWindow("guide-assembly-felt");
       trigger("stop");
     }
-    if (openModel("steptools_vise.stp")) grabWindow("guide-vise");
+    if (openModel("steptools_vise.stp")) {
+      grabWindow("guide-vise");
+      feelVise();
+    }
+  }
+  /// A block is added to the vise, led down on it until it stops, and all is saved and opened again.
+  void feelVise() {
+    const Part vise = *driver_.session().scene().parts().front();
+    const Aabb box = worldBounds(vise);
+    const glm::dvec3 size(0.3 * glm::distance(box.lower, box.upper) * glm::dvec3(1.0, 1.0, 0.3));
+    const double gap = 0.1 * size.z;
+    const glm::dvec3 above(box.centre().x, box.centre().y, box.upper.z + gap + 0.5 * size.z);
+    driver_.add({boxFile("Block", size, above)});
+    wait([this] { return driver_.session().scene().parts().size() == 2; }, "the block");
+    driver_.session().setMovingPart(driver_.partId("Block"));
+    driver_.window().selection().select(driver_.partId("Block"));
+    trigger("fit");
+    tick_ = 0;
+    driver_.startWith(ui::Hand::Manual);
+    // Step by step, as a hand does, and at last by a quarter of the gap too far.
+    constexpr int kSteps = 25;
+    for (int i = 1; i <= kSteps; ++i) {
+      RigidTransform hand;
+      hand.translation.z = -1.25 * gap * i / kSteps;
+      driver_.application.servo().moveHand(hand);
+      const std::uint64_t then = tick_ + 40;
+      wait([&] { return tick_ > then; }, "the block in hand");
+    }
+    wait([&] { return driver_.felt && driver_.felt->translation.z < -0.9 * gap; }, "the block at contact");
+    grabWindow("guide-vise-felt");
+    trigger("stop");
+    const std::filesystem::path file = driver_.folder.path() / "vise.nearfit";
+    driver_.session().save(file);
+    driver_.session().reset();
+    driver_.window().document().openFiles({ui::fromPath(file)});
+    wait([this] { return driver_.session().scene().parts().size() == 2; }, "the vise that was saved");
+    driver_.partsView()->expandAll();
+    trigger("fit");
+    grabWindow("guide-vise-reopened");
   }
 
   QString folder_;

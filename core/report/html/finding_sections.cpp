@@ -54,13 +54,14 @@ void putPairRow(ReportPageWriter& page, const SceneCheck& check, std::size_t num
     if (now != nullptr) putVolume(page, *now);
   });
   page.cell([&] {
-    if (now != nullptr && now->allowedBy) page.putName(textOf(check.rules[*now->allowedBy]));
+    if (now != nullptr && now->allowedBy) page.putRule(check.rules[*now->allowedBy]);
     if (now != nullptr && now->isForbidden()) page.put("not allowed");
   });
   page.cell([&] {
     const std::string_view state = stateWord(row.state, row.reason), change = wordOf(row.change);
     page.put(state);
-    if (change != state) page.put(fmt::format(", {}", change));
+    if (change != state)
+      page.put(row.change == FindingChange::Same ? ", as before" : fmt::format(", {}", change));
     if (row.change != FindingChange::Same) putBefore(page, row.before);
     if (row.reason.empty()) return;
     page.put(": ");

@@ -17,6 +17,8 @@ constexpr Colour kNearestColour{0.85F, 0.05F, 0.05F}, kMinimumColour{0.90F, 0.45
 constexpr double kLine = 2.5, kThinLine = 1.0, kDot = 7.0;
 /// A close view is this much wider than what it is about, and no narrower than this share of the smaller part.
 constexpr double kAround = 1.6, kShareOfPart = 0.25;
+/// The same where parts touch: a point says nothing without what is around it.
+constexpr double kShareOfTouching = 1.0;
 /// A close view that shows nearly all is not needed.
 constexpr double kCloseShare = 0.8;
 /// A direction of sight turned away from the gap by a projection that leaves less than this is not of the corner that
@@ -149,7 +151,8 @@ FindingViews findingViews(const Scene& scene, const PairFinding& finding, int wi
   const PictureView view = viewAlong(sightAcross(directionOf(finding)));
   FindingViews views;
   views.whole = {fitted(view, all, width, height), partsWith(Raster::Cover::TwoThirds), marks};
-  PictureView close = fitted(view, places, width, height, kShareOfPart * std::min(size, otherSize) / kAround);
+  const double share = finding.verdict == PairVerdict::Touching ? kShareOfTouching : kShareOfPart;
+  PictureView close = fitted(view, places, width, height, share * std::min(size, otherSize) / kAround);
   close.extent *= kAround;
   if (close.extent < kCloseShare * views.whole.view.extent) {
     views.whole.marks.push_back(frameOf(close, width, height));

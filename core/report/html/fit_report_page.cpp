@@ -27,10 +27,15 @@ void putHeader(ReportPageWriter& page, const FitReportRequest& request) {
   });
 }
 
+/// Where nothing was judged the page is neither green nor red.
+const char* verdictClass(const FitReport& report) {
+  if (!report.isGood()) return "verdict bad";
+  return report.check.checkedPairs() > 0 || report.path ? "verdict good" : "verdict";
+}
+
 void putSummary(ReportPageWriter& page, const FitReportRequest& request, const FitReport& report) {
-  page.add("p", {{"class", report.isGood() ? "verdict good" : "verdict bad"}},
-           verdictSentence(request, report));
   const SceneCheck& check = report.check;
+  page.add("p", {{"class", verdictClass(report)}}, verdictSentence(request, report));
   page.table(
       {"Parts", "Pairs checked", "Clear", "Near", "Touching", "Clash", "Contained", "Not allowed",
        "Left out"},
@@ -54,6 +59,8 @@ void putSummary(ReportPageWriter& page, const FitReportRequest& request, const F
       report.findings, [](const ComparedFinding& finding) { return finding.before.has_value(); });
   if (!hasLast) return;
   const FindingChanges changes = changesIn(report.findings);
+  if (changes.added + changes.worse + changes.better + changes.gone == 0)
+    return page.sentence("Nothing has changed since the last check.");
   page.sentence(fmt::format(
       "Since the last check {} new, {} worse, {} better and {} gone. Changed: accepted by the user, and "
       "worse or of "
@@ -62,6 +69,8 @@ void putSummary(ReportPageWriter& page, const FitReportRequest& request, const F
 }
 
 void putScenePictures(ReportPageWriter& page, const ReportPictures& pictures) {
+  if (pictures.all.front().scene.parts.empty())
+    return page.sentence("No visible part has triangles to show.");
   page.element("div", {{"class", "figures"}}, [&] {
     for (std::size_t i = 0; i < kReportSides.size(); ++i)
       putFigure(page, pictures.all[i],

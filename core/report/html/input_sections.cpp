@@ -79,6 +79,7 @@ void putInputRow(ReportPageWriter& page, std::string_view kind, const std::strin
 
 void putParts(ReportPageWriter& page, const Scene& scene) {
   const std::vector<Scene::PartPtr>& parts = scene.parts();
+  if (parts.empty()) return page.sentence("There are none.");
   const std::size_t shown = std::min(parts.size(), kMaxPartRows);
   page.table({"Part", "Source and its SHA-256", "Surface", "Size", "Mass", "Placement"}, [&] {
     for (std::size_t i = 0; i < shown; ++i)
@@ -111,7 +112,7 @@ void putSettings(ReportPageWriter& page, const FitReportRequest& request, const 
     return page.sentence("There are none: all pairs are checked, and every clash counts.");
   page.element("ol", [&] {
     for (const PairRule& rule : check.rules)
-      page.element("li", [&] { page.putName(textOf(rule)); });
+      page.element("li", [&] { page.putRule(rule); });
   });
 }
 

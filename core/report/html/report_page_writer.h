@@ -8,6 +8,7 @@
 
 #include "core/report/html/html_writer.h"
 #include "core/scene/pair_record.h"
+#include "core/scene/pair_rule.h"
 #include "core/scene/scene.h"
 
 namespace nearfit {
@@ -75,6 +76,8 @@ class ReportPageWriter : public HtmlWriter {
   void putPart(PartId id) { putName(scene_.get(id).name); }
   void putPair(const PartPair& pair);
   void putVerdict(PairVerdict verdict);
+  /// The rule in words, its length as the page has lengths.
+  void putRule(const PairRule& rule);
   /// @param sha256  Empty: writes nothing.
   void putHash(const std::string& sha256);
 

@@ -70,7 +70,7 @@ void putFigure(ReportPageWriter& page, const ReportPicture& picture, const std::
                const std::string& caption) {
   page.element("figure", [&] {
     page.putPicture(picture.png, picture.width, picture.height, description);
-    page.add("figcaption", fmt::format("{} {} across.", caption, mmText(picture.scene.view.extent)));
+    page.add("figcaption", fmt::format("{} {:.3g} mm across.", caption, 1e3 * picture.scene.view.extent));
   });
 }
 

@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/path/path_certifier.h"
 #include "core/path/path_file.h"
+#include "core/verdict/finding_states.h"
 #include "tests/support/html_document.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
@@ -168,9 +169,36 @@ TEST(FitReport, HostileNamesStayText) {
   const auto rows = rowsOf(page, "pairs");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].children[1].text, shown + " – </td></table><img src=x>");
-  EXPECT_EQ(rows[0].children[7].text, "accepted, same: </li><style>");
+  EXPECT_EQ(rows[0].children[7].text, "accepted, as before: </li><style>");
   EXPECT_THAT(textOfSection(page, "settings"), HasSubstr("<b>* and <!-- are meant to touch"));
   EXPECT_THAT(textOfSection(page, "inputs"), HasSubstr("/a/\\xff<b>"));
+}
+
+TEST(FitReport, PressFitsHaveTheirDepthInThePagesUnit) {
+  Scene scene = boxes();
+  scene.setPairRules({{PairRuleKind::PressFit, "Li*", "Base", 2e-5}});
+  EXPECT_THAT(textOfSection(pageOf(requestOf(scene, 0.25)), "settings"),
+              HasSubstr("press fit of Li* with Base up to 0.02 mm"));
+}
+
+TEST(FitReport, ACheckThatFindsTheSameSaysThatNothingHasChanged) {
+  Scene scene = boxes();
+  const auto summary = [&scene] { return textOfSection(pageOf(requestOf(scene, 0.25)), "summary"); };
+  EXPECT_THAT(summary(), Not(HasSubstr("last check")));
+  scene.setPairRecords(recordsOf(makeFitReport(requestOf(scene, 0.25)).findings));
+  EXPECT_THAT(summary(), HasSubstr("Nothing has changed since the last check."));
+  Part lid = *scene.parts()[1];
+  lid.worldFromPart.translation.z = 0.8;
+  scene.replace(lid);
+  EXPECT_THAT(summary(), HasSubstr("Since the last check 0 findings are new, 1 worse"));
+}
+
+/// Four pictures of nothing stood there, and the verdict was green.
+TEST(FitReport, ASceneWithoutPartsHasNoPicturesAndNoGoodVerdict) {
+  const std::string text = fitReportPage(requestOf(Scene(), 0.25), makeFitReport(requestOf(Scene(), 0.25)));
+  EXPECT_THAT(text, HasSubstr("<p class=\"verdict\">Nothing was judged"));
+  EXPECT_THAT(text, Not(HasSubstr("<img")));
+  EXPECT_TRUE(rowsOf(test::htmlDocument(text), "parts").empty());
 }
 
 TEST(FitReport, WhatWasNotCheckedIsTold) {
