@@ -14,6 +14,7 @@ void addCheckCommand(CLI::App& program);
 void addCertifyCommand(CLI::App& program);
 void addPathCommand(CLI::App& program);
 void addSuggestCommand(CLI::App& program);
+void addVerdictsCommand(CLI::App& program);
 void addFeelCommand(CLI::App& program);
 void addErrorCommand(CLI::App& program);
 void addPaperCommand(CLI::App& program);

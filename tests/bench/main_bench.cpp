@@ -16,6 +16,7 @@ void addCommands(CLI::App& program, int, char**) {
   nearfit::bench::addCertifyCommand(program);
   nearfit::bench::addPathCommand(program);
   nearfit::bench::addSuggestCommand(program);
+  nearfit::bench::addVerdictsCommand(program);
   nearfit::bench::addFeelCommand(program);
   nearfit::bench::addErrorCommand(program);
   nearfit::bench::addPaperCommand(program);

@@ -29,18 +29,20 @@ struct Entry {
 };
 
 std::vector<Entry> entries() {
-  return {{"start", "From the program's start to a window that answers", bench::measureStarts},
-          {"frames", "Turning a scene while the servo runs, and the servo's lateness", bench::measureFrames},
-          {"servo-beside-check", "The servo's lateness while a scene is checked, and without that",
-           bench::measureBesideCheck},
-          {"idle", "The processor while nothing moves", bench::measureIdle},
-          {"glyphs", "What minima add to a picture", bench::measureGlyphs},
-          {"picks", "What is under the mouse, of a large mesh", bench::measurePicks},
-          {"open", "Whether the window answers while a large mesh is opened", bench::measureOpening},
-          {"documents", "The same while CAD documents are opened, and how long until they can be felt",
-           bench::measureDocuments},
-          {"cancel", "How soon the window is free once that is cancelled", bench::measureCancels},
-          {"large", "Many parts with many triangles", bench::measureLarge}};
+  return {
+      {"start", "From the program's start to a window that answers", bench::measureStarts},
+      {"frames", "Turning a scene while the servo runs, and the servo's lateness", bench::measureFrames},
+      {"servo-beside-check", "The servo's lateness while a scene is checked, and without that",
+       bench::measureBesideCheck},
+      {"servo-beside-report", "The same while reports of a scene are written", bench::measureBesideReport},
+      {"idle", "The processor while nothing moves", bench::measureIdle},
+      {"glyphs", "What minima add to a picture", bench::measureGlyphs},
+      {"picks", "What is under the mouse, of a large mesh", bench::measurePicks},
+      {"open", "Whether the window answers while a large mesh is opened", bench::measureOpening},
+      {"documents", "The same while CAD documents are opened, and how long until they can be felt",
+       bench::measureDocuments},
+      {"cancel", "How soon the window is free once that is cancelled", bench::measureCancels},
+      {"large", "Many parts with many triangles", bench::measureLarge}};
 }
 
 struct CommandOptions {

@@ -245,7 +245,7 @@ class PoseCertifier::Follower {
   }
 
  private:
-  static constexpr std::size_t kAhead = 32, kPatience = 8;
+  static constexpr std::size_t kAhead = 256, kPatience = 8;
 
   double motion(std::size_t from, std::size_t to) const {
     return certifier_.bodies_->motion(way_[from], way_[to]);
@@ -257,10 +257,11 @@ class PoseCertifier::Follower {
     waited_ = 0;
     return true;
   }
+  /// No wider gap is of use. Some of the poses ahead tell: it only says how far to look.
   double farthestAhead(std::size_t i) const {
     double most = 0.0;
-    for (std::size_t next = i + 1; next < std::min(way_.size(), i + 1 + kAhead); ++next)
-      most = std::max(most, motion(i, next));
+    for (std::size_t ahead = 1; ahead <= kAhead && i + ahead < way_.size(); ahead *= 2)
+      most = std::max(most, motion(i, i + ahead));
     constexpr double kMore = 1.01;
     return kMore * most;
   }
@@ -275,7 +276,7 @@ class PoseCertifier::Follower {
 };
 
 std::vector<char> PoseCertifier::meetings(std::span<const RigidTransform> sceneFromPart) const {
-  constexpr std::size_t kBlock = 128;
+  constexpr std::size_t kBlock = 256;
   std::vector<char> out(sceneFromPart.size(), 0);
   parallelFor((out.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
     const std::size_t first = block * kBlock, count = std::min(kBlock, out.size() - first);

@@ -94,12 +94,13 @@ def _bench(setting, command, *options, csv):
     return Step([str(setting.bin / "nearfit-bench"), command, *_busy(setting), *options, "--csv", str(_bench_file(setting, csv))])
 
 
-def _bench_part(name, minutes, command, *options, csv="", is_shown=False, uses_shared=False):
+def _bench_part(name, minutes, command, *options, csv="", is_shown=False, uses_shared=False, may_miss=False):
     csv = csv or f"{name}.csv"
 
     def make(setting):
         shared = ["--shared", str(setting.shared)] if uses_shared else []
         step = _bench(setting, command, *shared, *options, csv=csv)
+        step.may_miss = may_miss
         if is_shown:
             step.command = XVFB + step.command
         return [step]
@@ -179,27 +180,30 @@ def _round_trip(setting):
 
 # What is timed comes first; the stress runs, whose results do not depend on time, take all processors.
 PARTS = (
-    _bench_part("query_paper", 4, "query", "--clock", "thread", "--scenes", PAPER, uses_shared=True),
-    _bench_part("query_generated", 6, "query", "--clock", "thread"),
+    _bench_part("query_paper", 3, "query", "--clock", "thread", "--scenes", PAPER, uses_shared=True),
+    _bench_part("query_generated", 4, "query", "--clock", "thread"),
     _bench_part("query_flats", 3, "query", "--clock", "thread", "--scenes", "peg-hole"),
-    Part("paper", 6, ("bench/results/paper.csv",), _later("paper"), command="paper"),
+    Part("paper", 5, ("bench/results/paper.csv",), _later("paper"), command="paper"),
     Part("check", 5, ("bench/results/check.csv",), _later("check", "--repeat", "1", "--peer-seconds", "20"), command="check"),
+    _bench_part("path", 3, "path", uses_shared=True),
+    _bench_part("suggest", 7, "suggest", may_miss=True),
+    _bench_part("verdicts", 3, "verdicts", uses_shared=True),
     _bench_part("build", 2, "build"),
-    _bench_part("program", 3, "program", "--clock", "thread"),
-    Part("feel", 12, ("bench/results/feel.csv", "bench/results/certified.csv"), _feel, command="feel"),
+    _bench_part("program", 2, "program", "--clock", "thread"),
+    Part("feel", 8, ("bench/results/feel.csv", "bench/results/certified.csv"), _feel, command="feel"),
     _bench_part("dense", 3, "feel", "--groups", "dense,curved", "--count", "1500", "--clock", "thread"),
     _bench_part("feel_million", 2, "feel", "--groups", "pairs", "--pairs", "organic-1m", "--count", "1500", "--clock", "thread"),
     _bench_part("tessellation", 3, "feel", "--groups", "tessellation"),
-    Part("error", 9, ("bench/results/error.csv", "bench/results/error.md"), _error, ("bench/results/error_*.png",), command="error"),
+    Part("error", 8, ("bench/results/error.csv", "bench/results/error.md"), _error, ("bench/results/error_*.png",), command="error"),
     _bench_part("skips", 4, "skips", is_shown=True),
     _bench_part("import", 3, "import", uses_shared=True),
     Part("scene", 2, ("bench/results/scene.csv", "bench/results/scene_instances.csv"), _scene, command="scene"),
     Part("window", 5, ("bench/results/window.csv",), _window, program="nearfit-bench-window", command="figures"),
     Part("round-trip", 3, ("usb/results/round_trip.csv",), _round_trip, program="nearfit-emulate"),
-    Part("evidence", 12, ("evidence/results/evidence.csv", "evidence/results/goals.json", "evidence/results/README.md"), _evidence,
+    Part("evidence", 10, ("evidence/results/evidence.csv", "evidence/results/goals.json", "evidence/results/README.md"), _evidence,
          ("evidence/results/*.png",), program="nearfit-cli"),
     _stress_part("hand", 16, "--mode", "proxy", "--ticks", "10000000", "--certify", "10", "--threads", "2"),
-    _stress_part("rest", 6, "--mode", "proxy", may_miss=True),
+    _stress_part("rest", 5, "--mode", "proxy", may_miss=True),
     _stress_part("limit", 2, "--mode", "proxy", may_miss=True, pictures=("stress/results/limit.png",), draw=_draw_limit),
     _stress_part("hours", 4, "--mode", "proxy", "--hours", "8", may_miss=True),
     _stress_part("oracle", 5, "--poses", "1000000", "--threads", "2", file="oracle.txt"),

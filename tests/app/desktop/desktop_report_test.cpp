@@ -23,6 +23,7 @@ class DesktopReportTest : public QObject {
   void theSceneIsReportedAsItIsAndNotAsItWasSaved();
   void aCertificateThatCannotBeReadIsToldAndNothingIsWritten();
   void cancellingWritesNothing();
+  void aReportIsWrittenWhileAPartIsFelt();
 };
 
 namespace {
@@ -180,6 +181,23 @@ void DesktopReportTest::cancellingWritesNothing() {
   d.choose("report");
   QVERIFY(QApplication::activeModalWidget() == nullptr);
   QVERIFY(!std::filesystem::exists(d.folder.path() / "report.html"));
+}
+
+void DesktopReportTest::aReportIsWrittenWhileAPartIsFelt() {
+  DesktopDriver d;
+  d.addCubes();
+  d.startWith(ui::Hand::Manual);
+  const auto report = d.folder.path() / "cubes.html";
+  answerReport("10 mm");
+  answerFile(report);
+  d.choose("report");
+  QTRY_VERIFY2(d.window().statusBar()->currentMessage().startsWith(QStringLiteral("Wrote cubes.html. Fits")),
+               qPrintable(d.window().statusBar()->currentMessage()));
+  QVERIFY(
+      textOf(report, "summary").contains(QStringLiteral("nearest are \"fixed\" and \"moving\", 5 mm apart")));
+  QVERIFY2(d.application.servo().isRunning(), "it goes on");
+  const std::uint64_t ticks = d.application.servo().statistics().ticks;
+  QTRY_VERIFY(d.application.servo().statistics().ticks > ticks);
 }
 
 NEARFIT_QT_SUITE(DesktopReportTest, runDesktopTest<DesktopReportTest>)

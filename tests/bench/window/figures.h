@@ -16,6 +16,8 @@ int startAndLeave(int argc, char** argv);
 std::vector<Figure> measureFrames(const WindowOptions& options);
 /// The servo's lateness while a scene is checked beside it, and without that.
 std::vector<Figure> measureBesideCheck(const WindowOptions& options);
+/// The same while reports are written.
+std::vector<Figure> measureBesideReport(const WindowOptions& options);
 /// What the processor does while nobody does anything.
 std::vector<Figure> measureIdle(const WindowOptions& options);
 /// What minima add to a picture.

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/parallel/low_priority.h"
+#include "core/report/html/fit_report.h"
 #include "core/verdict/scene_check.h"
 #include "device/servo/servo_loop.h"
 #include "tests/bench/bench_shapes.h"
@@ -18,6 +20,7 @@
 #include "tests/bench/window/figures.h"
 #include "tests/bench/window/plain_window.h"
 #include "tests/support/part_geometries.h"
+#include "tests/support/temporary_folder.h"
 #include "ui/view3d/view_detail.h"
 
 /// Frames and what runs beside them.
@@ -28,6 +31,8 @@ constexpr double kFrameGoal = 50.0;  ///< Twenty a second [ms].
 constexpr double kLatenessFactor = 1.5;
 constexpr double kGlyphGoal = 3.0, kIdleGoal = 1.0;
 constexpr std::size_t kMinima = 100;
+/// Of checks and reports beside the servo [m].
+constexpr double kBesideThreshold = 0.1;
 
 std::uint32_t frequencyOf(std::size_t triangles) {
   return static_cast<std::uint32_t>(
@@ -111,7 +116,7 @@ Scene clashingRow(std::size_t triangles) {
 /// Checks a scene again and again, as the window does it, while it lives.
 class ChecksBeside {
  public:
-  explicit ChecksBeside(const Scene& scene) : request_(sceneCheckRequest(scene, 0.1)) {
+  explicit ChecksBeside(const Scene& scene) : request_(sceneCheckRequest(scene, kBesideThreshold)) {
     request_.isLowPriority = true;
     thread_ = std::thread([this] { run(); });
   }
@@ -136,6 +141,72 @@ class ChecksBeside {
   std::atomic<bool> isOver_{false};
   std::thread thread_;
 };
+
+/// Writes reports of a scene again and again, as the window does it, while it lives.
+class ReportsBeside {
+ public:
+  explicit ReportsBeside(const Scene& scene) : request_(fitReportRequest(scene, {}, {}, kBesideThreshold)) {
+    thread_ = std::thread([this] { run(); });
+  }
+  ~ReportsBeside() {
+    isOver_ = true;
+    thread_.join();
+  }
+  ReportsBeside(const ReportsBeside&) = delete;
+  ReportsBeside& operator=(const ReportsBeside&) = delete;
+
+ private:
+  void run() {
+    lowerThreadPriority();
+    try {
+      while (!isOver_)
+        (void)writeFitReport(request_, folder_.path() / "report.html", [this](double) { return !isOver_; });
+    } catch (const Cancelled&) {
+      // The measurement has ended.
+    }
+  }
+
+  test::TemporaryFolder folder_;
+  FitReportRequest request_;
+  std::atomic<bool> isOver_{false};
+  std::thread thread_;
+};
+
+/// The servo's lateness with a worker beside it, and in turns without.
+/// @tparam Beside  Works on a scene for as long as it lives.
+template <class Beside>
+std::vector<Figure> measureBeside(const WindowOptions& options, const std::string& name, const char* way,
+                                  const char* what) {
+  const Scene worked = clashingRow(options.triangles);
+  BenchWindow window;
+  window.open(pairOf(options.triangles));
+  std::vector<ServoStatistics> beside, alone;
+  double busy = 0.0;
+  for (std::size_t turn = 0; turn < options.turns; ++turn) {
+    // The window neither draws nor looks at the servo, in either way.
+    window.startServo();
+    std::this_thread::sleep_for(options.time);
+    window.stopServo();
+    alone.push_back(window.application().servo().statistics());
+    window.startServo();
+    {
+      const double before = processorSeconds();
+      const Beside worker(worked);
+      std::this_thread::sleep_for(options.time);
+      busy += processorSeconds() - before;
+      window.stopServo();
+    }
+    beside.push_back(window.application().servo().statistics());
+  }
+  Figure with = latenessOf(name, way, beside), without = latenessOf(name, "without", alone);
+  with.goal = kLatenessFactor * without.p99;
+  with.goalOf = "p99";
+  const double seconds =
+      1e-3 * static_cast<double>(options.time.count()) * static_cast<double>(options.turns);
+  with.remark +=
+      fmt::format("; {:.2f} processors busy; {} triangles {}", busy / seconds, trianglesOf(worked), what);
+  return {with, without};
+}
 
 std::string detailText(BenchWindow& window) {
   return fmt::format("{} triangles a picture", window.view().detail().detail().triangles);
@@ -180,37 +251,12 @@ std::vector<Figure> measureFrames(const WindowOptions& options) {
 }
 
 std::vector<Figure> measureBesideCheck(const WindowOptions& options) {
-  const Scene checked = clashingRow(options.triangles);
-  BenchWindow window;
-  window.open(pairOf(options.triangles));
-  std::vector<ServoStatistics> beside, alone;
-  double busy = 0.0;
-  for (std::size_t turn = 0; turn < options.turns; ++turn) {
-    // The window neither draws nor looks at the servo, in either way.
-    window.startServo();
-    std::this_thread::sleep_for(options.time);
-    window.stopServo();
-    alone.push_back(window.application().servo().statistics());
-    window.startServo();
-    {
-      const double before = processorSeconds();
-      const ChecksBeside checks(checked);
-      std::this_thread::sleep_for(options.time);
-      busy += processorSeconds() - before;
-      window.stopServo();
-    }
-    beside.push_back(window.application().servo().statistics());
-  }
-  const std::string name = "servo-beside-check";
-  Figure with = latenessOf(name, "while a scene is checked", beside),
-         without = latenessOf(name, "without", alone);
-  with.goal = kLatenessFactor * without.p99;
-  with.goalOf = "p99";
-  const double seconds =
-      1e-3 * static_cast<double>(options.time.count()) * static_cast<double>(options.turns);
-  with.remark +=
-      fmt::format("; {:.2f} processors busy; {} triangles checked", busy / seconds, trianglesOf(checked));
-  return {with, without};
+  return measureBeside<ChecksBeside>(options, "servo-beside-check", "while a scene is checked", "checked");
+}
+
+std::vector<Figure> measureBesideReport(const WindowOptions& options) {
+  return measureBeside<ReportsBeside>(options, "servo-beside-report", "while reports are written",
+                                      "reported");
 }
 
 std::vector<Figure> measureIdle(const WindowOptions& options) {

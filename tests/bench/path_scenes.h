@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/path/assembly_path.h"
+#include "core/scene/scene.h"
+
+namespace nearfit::bench {
+
+/// A scene, and a path on which what is in hand stays free of all else.
+struct PathBenchScene {
+  std::string name;
+  Scene scene;
+  AssemblyPath path;
+};
+
+/// A scene that is made when it is wanted.
+struct PathSceneEntry {
+  std::string name;
+  std::function<PathBenchScene()> make;
+};
+
+/// Generated paths, each of so many poses, 2 or more, a millisecond apart:
+/// "peg", which is screwed into its bore, four turns with a play of some 0.08 mm; "rocks", two scans of 20,480 triangles
+/// of which one passes the other as near as a twentieth of its radius, turning; "pipe", a bent pipe that is drawn
+/// through the hole of a plate, round its bend.
+std::vector<PathSceneEntry> generatedPathScenes(std::size_t poses);
+
+/// Paths of the shared models: "peghole", a round peg that is screwed into its hole, and "pump", the axis that is let
+/// down into the lower half. Empty if the folder has no models.
+/// @param shared  Folder of the shared models; may be empty.
+std::vector<PathSceneEntry> sharedPathScenes(const std::filesystem::path& shared, std::size_t poses);
+
+}  // namespace nearfit::bench
