@@ -108,8 +108,9 @@ TEST_F(MakerProgram, NamesTheFunctionThatAnOldDriverLacks) {
 
 TEST_F(MakerProgram, ForceDimensionDoesWithoutTheLibraryThatCalibrates) {
   install(NEARFIT_STANDINS "/dhd");
-  const test::ProcessResult test = run({"devices", "--test", "forcedimension:1", "--yes", "--json",
-                                        "--report", (folder_.path() / "report.json").string()});
+  const test::ProcessResult test =
+      run({"devices", "--test", "forcedimension:1", "--yes", "--json", "--unjudged-axes", "--report",
+           (folder_.path() / "report.json").string()});
   const auto report = nlohmann::json::parse(std::ifstream(folder_.path() / "report.json"));
   EXPECT_EQ(report["format"], "nearfit-device-report");
   EXPECT_EQ(report["senses_axes"], 6);

@@ -1,13 +1,17 @@
 #include "app/cli/device_report.h"
 
+#include <cmath>
+#include <cstddef>
 #include <fstream>
 #include <set>
 #include <string>
 
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/device_push.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::device_report_test {
@@ -21,8 +25,11 @@ using testing::HasSubstr;
 TEST(DeviceReport, AsksForEachAxisThatIsSensed) {
   EXPECT_EQ(cli::askedMotions(3).size(), 3U);
   const auto asked = cli::askedMotions(6);
-  ASSERT_EQ(asked.size(), 4U);
-  EXPECT_TRUE(asked.back().isTurn);
+  ASSERT_EQ(asked.size(), 6U);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    EXPECT_EQ(asked[i].isTurn, i >= 3) << i;
+    EXPECT_EQ(std::abs(asked[i].axis[static_cast<int>(i % 3)]), 1.0) << i;
+  }
   std::set<std::string> names;
   for (const AskedMotion& each : asked)
     names.insert(each.name);
@@ -43,6 +50,35 @@ TEST(DeviceReport, ATurnTheOtherWayRoundFails) {
   EXPECT_EQ(judgeMotion(clockwise, {0.0, 0.1, -0.8}).result, TestStep::Result::Passed);
   EXPECT_EQ(judgeMotion(clockwise, {0.0, 0.0, 0.8}).result, TestStep::Result::Failed);
   EXPECT_EQ(judgeMotion(clockwise, {0.0, 0.0, -0.1}).result, TestStep::Result::Skipped);
+}
+
+/// "Tip the top towards you": up, z, becomes towards, -y. "To the right": up becomes x.
+TEST(DeviceReport, TheAxesOfTurnsFollowTheirWords) {
+  const auto asked = cli::askedMotions(6);
+  const glm::dvec3 up(0.0, 0.0, 1.0);
+  // A small turn about an axis moves a point by their cross product.
+  EXPECT_EQ(glm::cross(asked[3].axis, up), glm::dvec3(0.0, -1.0, 0.0)) << asked[3].request;
+  EXPECT_EQ(glm::cross(asked[4].axis, up), glm::dvec3(1.0, 0.0, 0.0)) << asked[4].request;
+}
+
+TEST(DevicePush, TorquesFollowForcesOnlyWhereThereAreMotorsForThem) {
+  DeviceInfo info{"PHANTOM", 6, DeviceLimits{}, 1e-3};
+  info.limits.maxForce = 0.25;
+  info.limits.maxTorque = 0.02;
+  const auto pushes = cli::pushesOf(info, /*isGradual=*/true);
+  ASSERT_EQ(pushes.size(), 12U);
+  for (std::size_t i = 0; i < pushes.size(); ++i) {
+    EXPECT_EQ(pushes[i].isTurn, i >= 6) << pushes[i].name;
+    EXPECT_LE(pushes[i].size, pushes[i].isTurn ? 0.02 : 0.25) << pushes[i].name;
+    // Small ones first, of each kind.
+    if (i % 6 != 0) EXPECT_GE(pushes[i].size, pushes[i - 1].size) << pushes[i].name;
+  }
+  info.limits.maxTorque = 0.0;
+  EXPECT_EQ(cli::pushesOf(info, true).size(), 6U);
+  info.forceAxes = 3;
+  EXPECT_EQ(cli::pushesOf(info, false).size(), 3U);
+  info.forceAxes = 0;
+  EXPECT_TRUE(cli::pushesOf(info, true).empty());
 }
 
 TEST(DeviceReport, HoldsWhatTheTestFoundInOneFile) {

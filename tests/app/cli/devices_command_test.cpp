@@ -69,6 +69,7 @@ TEST(DevicesCommand, OptionsThatDoNotGoTogetherAreRefused) {
       {{"--watch", "--seconds", "0"}, "--seconds: 0 is out of range"},
       {{"--calibrate"}, "--calibrate: it is for --monitor and --test"},
       {{"--yes"}, "--yes: it is for --test"},
+      {{"--test", kNobodys, "--unjudged-axes"}, "--unjudged-axes: it is for --test with --report"},
       {{"something"}, "something"},
   };
   for (const auto& [options, problem] : wrong) {
