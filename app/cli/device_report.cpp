@@ -14,6 +14,7 @@
 #include "app/cli/output.h"
 #include "core/files/atomic_write.h"
 #include "core/math/rotation_vector.h"
+#include "device/interface/device_supervisor.h"
 #include "device/thread/monotonic_clock.h"
 
 namespace nearfit::cli {
@@ -125,6 +126,7 @@ void writeDeviceReport(const std::filesystem::path& file, const DeviceInfo& info
   Json json{{"format", kReportFormat},
             {"version", kReportVersion},
             {"program", "nearfit-cli"},
+            {"program_version", NEARFIT_VERSION},
             {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)},
             {"device", info.name},
             {"senses_axes", info.sensedAxes},
@@ -134,7 +136,10 @@ void writeDeviceReport(const std::filesystem::path& file, const DeviceInfo& info
              {{"force_n", info.limits.maxForce},
               {"torque_nm", info.limits.maxTorque},
               {"damping_nspm", info.limits.damping},
-              {"mass_kg", info.limits.leastMass}}},
+              {"rotational_damping_nms", info.limits.rotationalDamping},
+              {"mass_kg", info.limits.leastMass},
+              {"inertia_kgm2", info.limits.leastInertia},
+              {"speed_mps", info.maxSpeed > 0.0 ? info.maxSpeed : SafetyLimits{}.faultSpeed}}},
             {"steps", Json::array()}};
   for (const TestStep& each : steps)
     json["steps"].push_back(

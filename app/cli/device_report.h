@@ -56,8 +56,8 @@ struct MeasuredNoise {
 /// the noise is more than contact can bear.
 MeasuredNoise measureNoise(TickedDevice& ticked);
 
-/// Writes what a test found as a JSON file to send in: the device's name, limits and steps, the program's and system's
-/// version; no serial number, no name of user or computer. Throws FileError.
+/// Writes what a test found as a JSON file to send in: the device's name (with its maker's driver where that says its
+/// version), limits and steps, the program's and system's version; no serial number, no name of user or computer. Throws FileError.
 void writeDeviceReport(const std::filesystem::path& file, const DeviceInfo& info,
                        const std::vector<TestStep>& steps);
 

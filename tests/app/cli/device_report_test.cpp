@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/device_push.h"
+#include "tests/support/run_process.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::device_report_test {
@@ -71,7 +73,7 @@ TEST(DevicePush, TorquesFollowForcesOnlyWhereThereAreMotorsForThem) {
     EXPECT_EQ(pushes[i].isTurn, i >= 6) << pushes[i].name;
     EXPECT_LE(pushes[i].size, pushes[i].isTurn ? 0.02 : 0.25) << pushes[i].name;
     // Small ones first, of each kind.
-    if (i % 6 != 0) EXPECT_GE(pushes[i].size, pushes[i - 1].size) << pushes[i].name;
+    EXPECT_GE(pushes[i].size, i % 6 == 0 ? 0.0 : pushes[i - 1].size) << pushes[i].name;
   }
   info.limits.maxTorque = 0.0;
   EXPECT_EQ(cli::pushesOf(info, true).size(), 6U);
@@ -86,13 +88,27 @@ TEST(DeviceReport, HoldsWhatTheTestFoundInOneFile) {
   const auto file = folder.path() / "report.json";
   DeviceInfo info{"Touch", 3, DeviceLimits{}, 1e-3};
   info.limits.maxForce = 3.3;
+  info.limits.maxTorque = 0.2;
+  info.limits.damping = 0.6;
+  info.limits.rotationalDamping = 2e-3;
+  info.limits.leastMass = 0.07;
+  info.limits.leastInertia = 6e-5;
+  info.maxSpeed = 1.5;
   cli::writeDeviceReport(file, info, {{"axis x", TestStep::Result::Failed, "it moved\nanother way"}});
   std::ifstream in(file);
   const auto json = nlohmann::json::parse(in);
   EXPECT_EQ(json["format"], "nearfit-device-report");
   EXPECT_EQ(json["device"], "Touch");
   EXPECT_DOUBLE_EQ(json["rate_hz"], 1000.0);
-  EXPECT_DOUBLE_EQ(json["limits"]["force_n"], 3.3);
+  EXPECT_EQ(json["version"], 1);
+  // Of the program itself, not of the format: what nearfit-cli --version says.
+  const std::string version = test::runCli({"--version"}).out;
+  EXPECT_EQ("nearfit-cli " + json["program_version"].get<std::string>() + "\n", version);
+  for (const auto& [name, value] :
+       {std::pair{"force_n", 3.3}, std::pair{"torque_nm", 0.2}, std::pair{"damping_nspm", 0.6},
+        std::pair{"rotational_damping_nms", 2e-3}, std::pair{"mass_kg", 0.07},
+        std::pair{"inertia_kgm2", 6e-5}, std::pair{"speed_mps", 1.5}})
+    EXPECT_DOUBLE_EQ(json["limits"][name].get<double>(), value) << name;
   EXPECT_EQ(json["steps"].size(), 1U);
   EXPECT_EQ(json["steps"][0]["result"], "fail");
   EXPECT_THAT(json["steps"][0]["text"].get<std::string>(), HasSubstr("another way"));
