@@ -108,7 +108,7 @@ TEST_F(MakerProgram, NamesTheFunctionThatAnOldDriverLacks) {
 
 /// A maker's device, as a report names it and what it senses and pushes.
 struct ReportedDevice {
-  const char *place, *name;
+  const char *libraries, *place, *name;
   int sensedAxes, forceAxes;
 };
 
@@ -116,11 +116,12 @@ TEST_F(MakerProgram, AReportOfEachMakersDeviceIsWhole) {
   setUpTouch();
   service_ = std::make_unique<test::HaplyStandin>();
   // libdhd.so alone: Force Dimension does without the library that calibrates.
-  install(NEARFIT_STANDINS "/dhd:" NEARFIT_STANDINS "/whole");
+  const char *const dhd = NEARFIT_STANDINS "/dhd", *const whole = NEARFIT_STANDINS "/whole";
   for (const ReportedDevice& device :
-       {ReportedDevice{"forcedimension:1", "omega.6, SDK 3.17.1", 6, 3},
-        ReportedDevice{"openhaptics:1", "Touch, OpenHaptics 3.50.0, driver 2.7", 6, 3},
-        ReportedDevice{"haply:1", "Haply Inverse3", 6, 3}}) {
+       {ReportedDevice{dhd, "forcedimension:1", "omega.6, SDK 3.17.1", 6, 3},
+        ReportedDevice{whole, "openhaptics:1", "Touch, OpenHaptics 3.50.0, driver 2.7", 6, 3},
+        ReportedDevice{whole, "haply:1", "Haply Inverse3", 6, 3}}) {
+    install(device.libraries);
     const fs::path file = folder_.path() / "report.json";
     const test::ProcessResult test = run(
         {"devices", "--test", device.place, "--yes", "--json", "--unjudged-axes", "--report", file.string()});
