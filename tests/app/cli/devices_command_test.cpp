@@ -1,3 +1,5 @@
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/cli/place_fixture.h"
+#include "tests/support/scoped_variable.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nearfit::test::devices_command_test {
 namespace {
@@ -49,6 +53,20 @@ TEST(DevicesCommand, WatchingEndsWhenItsTimeIsUp) {
   EXPECT_EQ(result.exitCode, 0) << result.err;
   for (const std::string& line : linesOf(result.out))
     EXPECT_EQ(nlohmann::json::parse(line)["event"], "arrived");
+}
+
+TEST(DevicesCommand, AFolderOfPlugInsThatOthersMayWriteToIsRefusedWithAWord) {
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  const fs::path plugin = folder.path() / "driver.so";
+  std::ofstream(plugin) << "never loaded";
+  fs::permissions(plugin, fs::perms::owner_all);
+  fs::permissions(folder.path(), fs::perms::owner_all | fs::perms::group_write);
+  const ScopedVariable named("NEARFIT_PLUGINS", folder.path().string());
+  const ProcessResult result = runCli({"devices"});
+  EXPECT_THAT(result.err, AllOf(HasSubstr("warning: "), HasSubstr("driver.so"),
+                                HasSubstr("other users can write to its folder"),
+                                HasSubstr("run: chmod go-w " + folder.path().string())));
 }
 
 TEST(DevicesCommand, ADeviceThatIsNotThereIsSaidInOneLine) {
