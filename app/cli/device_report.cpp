@@ -14,6 +14,7 @@
 #include "app/cli/output.h"
 #include "core/files/atomic_write.h"
 #include "core/math/rotation_vector.h"
+#include "device/interface/device_supervisor.h"
 #include "device/thread/monotonic_clock.h"
 
 namespace nearfit::cli {
@@ -50,8 +51,11 @@ std::vector<AskedMotion> askedMotions(int sensedAxes) {
   std::vector<AskedMotion> asked = {{"axis x", "Push the handle to the right", {1.0, 0.0, 0.0}},
                                     {"axis y", "Push the handle away from you", {0.0, 1.0, 0.0}},
                                     {"axis z", "Lift the handle", {0.0, 0.0, 1.0}}};
-  if (sensedAxes == 6)
+  if (sensedAxes == 6) {
+    asked.push_back({"turn x", "Tip the top of the handle towards you", {1.0, 0.0, 0.0}, true});
+    asked.push_back({"turn y", "Tip the top of the handle to the right", {0.0, 1.0, 0.0}, true});
     asked.push_back({"turn z", "Turn the handle clockwise, as seen from above", {0.0, 0.0, -1.0}, true});
+  }
   return asked;
 }
 
@@ -78,34 +82,40 @@ std::vector<TestStep> askForMotions(TickedDevice& ticked) {
     const Nanoseconds begin = monotonicNow();
     glm::dvec3 way(0.0);
     while (toSeconds(monotonicNow() - begin) < kMotionSeconds && glm::length(way) < clear &&
-           !InterruptGuard::isInterrupted() && ticked.tick())
+           !InterruptGuard::isInterrupted()) {
+      if (!ticked.tick()) {
+        steps.push_back({asked.name, TestStep::Result::Failed, ticked.device().stateNote()});
+        return steps;
+      }
       way = wayBetween(asked, from, ticked.handle().pose);
+    }
     steps.push_back(judgeMotion(asked, way));
   }
   return steps;
 }
 
-TestStep measureNoise(TickedDevice& ticked) {
+MeasuredNoise measureNoise(TickedDevice& ticked) {
   glm::dvec3 sum(0.0), sumOfSquares(0.0);
   LatencyHistogram ages;
   double count = 0.0;
   const glm::dvec3 origin = ticked.handle().pose.translation;
   const Nanoseconds begin = monotonicNow();
   while (toSeconds(monotonicNow() - begin) < kNoiseSeconds && !InterruptGuard::isInterrupted()) {
-    if (!ticked.tick()) return {"noise", TestStep::Result::Failed, ticked.device().stateNote()};
+    if (!ticked.tick()) return {{"noise", TestStep::Result::Failed, ticked.device().stateNote()}};
     const glm::dvec3 at = ticked.handle().pose.translation - origin;
     sum += at;
     sumOfSquares += at * at;
     ages.record(ticked.handle().age);
     count += 1.0;
   }
-  if (!(count > 0.0)) return {"noise", TestStep::Result::Skipped, "no pose came"};
+  if (!(count > 0.0)) return {{"noise", TestStep::Result::Skipped, "no pose came"}};
   const glm::dvec3 mean = sum / count;
   const glm::dvec3 variance = glm::max(sumOfSquares / count - mean * mean, glm::dvec3(0.0));
   const double noise = std::sqrt(variance.x + variance.y + variance.z);
-  return {"noise", noise <= kMaxNoise ? TestStep::Result::Passed : TestStep::Result::Failed,
-          fmt::format("{:.4f} mm rms at rest; a pose is {:.0f} us old when it is read (p99 {:.0f} us)",
-                      1e3 * noise, 1e6 * ages.percentile(0.5), 1e6 * ages.percentile(0.99))};
+  return {{"noise", noise <= kMaxNoise ? TestStep::Result::Passed : TestStep::Result::Failed,
+           fmt::format("{:.4f} mm rms at rest; a pose is {:.0f} us old when it is read (p99 {:.0f} us)",
+                       1e3 * noise, 1e6 * ages.percentile(0.5), 1e6 * ages.percentile(0.99))},
+          noise};
 }
 
 void writeDeviceReport(const std::filesystem::path& file, const DeviceInfo& info,
@@ -116,6 +126,7 @@ void writeDeviceReport(const std::filesystem::path& file, const DeviceInfo& info
   Json json{{"format", kReportFormat},
             {"version", kReportVersion},
             {"program", "nearfit-cli"},
+            {"program_version", NEARFIT_VERSION},
             {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)},
             {"device", info.name},
             {"senses_axes", info.sensedAxes},
@@ -125,7 +136,10 @@ void writeDeviceReport(const std::filesystem::path& file, const DeviceInfo& info
              {{"force_n", info.limits.maxForce},
               {"torque_nm", info.limits.maxTorque},
               {"damping_nspm", info.limits.damping},
-              {"mass_kg", info.limits.leastMass}}},
+              {"rotational_damping_nms", info.limits.rotationalDamping},
+              {"mass_kg", info.limits.leastMass},
+              {"inertia_kgm2", info.limits.leastInertia},
+              {"speed_mps", info.maxSpeed > 0.0 ? info.maxSpeed : SafetyLimits{}.faultSpeed}}},
             {"steps", Json::array()}};
   for (const TestStep& each : steps)
     json["steps"].push_back(

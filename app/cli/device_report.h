@@ -30,7 +30,7 @@ struct AskedMotion {
   bool isTurn = false;
 };
 
-/// Returns the motions to ask for: right, away and up, and a turn if the device senses turning.
+/// Returns the motions to ask for: right, away and up, and a turn about each of these axes if the device senses turning.
 std::vector<AskedMotion> askedMotions(int sensedAxes);
 
 /// Judges what the handle did when asked for a motion. Failed if it went another way than asked: an axis of the device
@@ -43,15 +43,21 @@ inline constexpr double kClearWay = 0.02, kClearTurn = 0.35;
 /// Max share of a motion across the direction asked for: no hand moves straight.
 inline constexpr double kMaxAcross = 0.7;
 
-/// Asks for each motion in turn and waits for it, up to 15 s. Prints the requests to stdout.
+/// Asks for each motion in turn and waits for it, up to 15 s. Prints the requests to stdout. Ends with a failed step if
+/// the device is lost.
 std::vector<TestStep> askForMotions(TickedDevice& ticked);
+
+struct MeasuredNoise {
+  TestStep step;
+  double rms = 0.0;  ///< Of the handle's place [m].
+};
 
 /// Watches a handle that nobody touches, for a second: noise of its place, and age of a pose when it is read. Failed if
 /// the noise is more than contact can bear.
-TestStep measureNoise(TickedDevice& ticked);
+MeasuredNoise measureNoise(TickedDevice& ticked);
 
-/// Writes what a test found as a JSON file to send in: the device's name, limits and steps, the program's and system's
-/// version; no serial number, no name of user or computer. Throws FileError.
+/// Writes what a test found as a JSON file to send in: the device's name (with its maker's driver where that says its
+/// version), limits and steps, the program's and system's version; no serial number, no name of user or computer. Throws FileError.
 void writeDeviceReport(const std::filesystem::path& file, const DeviceInfo& info,
                        const std::vector<TestStep>& steps);
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +16,7 @@
 #include <unistd.h>
 
 #include "app/cli/device_monitor.h"
+#include "app/cli/device_push.h"
 #include "app/cli/device_report.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/output.h"
@@ -29,38 +29,9 @@ namespace {
 
 using Result = TestStep::Result;
 
-/// Strength of the pushes [N]: clearly felt, and dangerous to nobody.
-constexpr double kTestForce = 0.5;
-/// Strengths of the first pushes of a device that a report is for: nobody has felt it yet [N].
-constexpr std::array kFirstForces = {0.1, 0.2, 0.3};
-
-constexpr double kWatchSeconds = 2.0, kPushSeconds = 1.0;
+constexpr double kWatchSeconds = 2.0;
 /// The servo copes with half the nominal rate, with softer contact; less means a bad cable or hub.
 constexpr double kMinRate = 0.5;
-/// Shortest time over which speed is measured, since two reports may come at once [s].
-constexpr double kSpeedTime = 0.01;
-/// Limits for half a newton on a handle that is held.
-constexpr double kMaxWay = 0.05, kMaxSpeed = 0.5;  // [m], [m/s]
-
-/// Measures the speed of a handle from its poses.
-class SpeedMeter {
- public:
-  /// Returns the speed [m/s]; the last one if too little time has passed.
-  double see(const glm::dvec3& position, Nanoseconds now) noexcept {
-    const double time = toSeconds(now - time_);
-    if (time_ == 0 || time >= kSpeedTime) {
-      if (time_ != 0) speed_ = glm::length(position - position_) / time;
-      position_ = position;
-      time_ = now;
-    }
-    return speed_;
-  }
-
- private:
-  glm::dvec3 position_{0.0};
-  Nanoseconds time_ = 0;
-  double speed_ = 0.0;
-};
 
 struct Watched {
   double seconds = 0.0, rate = 0.0, mostSpeed = 0.0;
@@ -118,52 +89,11 @@ TestStep judgePoses(const Watched& watched) {
       fmt::format("finite, max {:.3f} m/s{}", watched.mostSpeed, isTooFast ? ": faster than any hand" : "")};
 }
 
-/// Returns why a push is given up; empty if it goes on.
-std::string motionTrouble(const HapticDevice& device, double way, double speed) {
-  if (InterruptGuard::isInterrupted()) return "interrupted";
-  if (device.state() != DeviceState::Armed) {
-    const std::string note = device.stateNote();
-    return note.empty() ? "it is no longer armed" : note;
-  }
-  if (!(way <= kMaxWay)) return fmt::format("the handle moved {:.3f} m: hold it", way);
-  if (!(speed <= kMaxSpeed)) return fmt::format("the handle ran away at {:.2f} m/s", speed);
-  return {};
-}
-
 /// Watches the device without touching it: one step for rate and jitter, one for poses.
 std::vector<TestStep> watchReports(TickedDevice& ticked) {
   const Watched watched = watchTicks(ticked);
   const HapticDevice& device = ticked.device();
   return {judgeRate(ticked, watched, device.info().reportPeriod, device.stateNote()), judgePoses(watched)};
-}
-
-/// Pushes along a unit axis in the device's frame, rising to `force` [N] and falling smoothly. Gives up at
-/// once if the handle runs away or the device stops. The device must be armed.
-TestStep push(TickedDevice& ticked, const std::string& name, const glm::dvec3& axis, double force) {
-  const glm::dvec3 from = ticked.handle().pose.translation;
-  SpeedMeter speed;
-  double mostWay = 0.0;
-  std::uint64_t ticks = 0, held = 0;
-  const Nanoseconds begin = monotonicNow();
-  for (double time = 0.0; time < kPushSeconds; time = toSeconds(monotonicNow() - begin)) {
-    const double share = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * time / kPushSeconds);
-    if (!ticked.tick(Wrench{share * force * axis, glm::dvec3(0.0)}))
-      return {name, Result::Failed, ticked.device().stateNote()};
-    const glm::dvec3& position = ticked.handle().pose.translation;
-    const double way = glm::length(position - from);
-    const std::string trouble = motionTrouble(ticked.device(), way, speed.see(position, monotonicNow()));
-    if (!trouble.empty()) {
-      ticked.tick();
-      return {name, Result::Failed, trouble};
-    }
-    mostWay = std::max(mostWay, way);
-    ++ticks;
-    held += ticked.handle().isArmed ? 1 : 0;
-  }
-  ticked.tick();
-  if (2 * held < ticks) return {name, Result::Failed, "it exerted no force: hold its dead-man's switch"};
-  return {name, Result::Passed,
-          fmt::format("up to {:.2f} N, the handle moved up to {:.4f} m", force, mostWay)};
 }
 
 /// Time for a device to find its handle's place while somebody moves it [s].
@@ -215,11 +145,13 @@ std::optional<std::string> typedLine() {
 }
 
 /// Ticks the device while it waits, since some devices need that.
-bool asksForConsent(TickedDevice& ticked, double force) {
-  print(
-      fmt::format("Hold the handle. The device will push it with up to {:.2f} N for {} s along each axis.\n"
-                  "Type yes to arm the device: ",
-                  force, 1));
+bool asksForConsent(TickedDevice& ticked, const DeviceInfo& info) {
+  const double torque = testTorqueOf(info);
+  print(fmt::format(
+      "Hold the handle. The device will push it with up to {:.2f} N for a second along each axis{}.\n"
+      "Type yes to arm the device: ",
+      testForceOf(info),
+      torque > 0.0 ? fmt::format(", and turn it with up to {:.2f} N m about each", torque) : ""));
   flushOutput();
   while (!InterruptGuard::isInterrupted() && ticked.tick()) {
     if (const std::optional<std::string> line = typedLine()) return *line == "yes";
@@ -264,41 +196,64 @@ bool canAsk(const DeviceTestOptions& options) {
   return !options.isJson && ::isatty(STDIN_FILENO) == 1 && ::isatty(STDOUT_FILENO) == 1;
 }
 
+/// Finds the handle's place first, where it is not known: what is measured before means nothing.
+void calibrateFirst(TickedDevice& ticked, Steps& steps, const DeviceTestOptions& options) {
+  if (ticked.device().state() == DeviceState::Uncalibrated)
+    steps.add(waitForCalibration(ticked, options.isJson));
+}
+
+/// What is known before any force.
+struct BeforeForces {
+  double noise = 0.0;    ///< Of the pose at rest, rms [m].
+  std::string obstacle;  ///< Why there must be no force; empty if there may be.
+};
+
 /// Steps that only a report has, before any force.
-void watchForReport(TickedDevice& ticked, Steps& steps, const DeviceTestOptions& options) {
+BeforeForces watchForReport(TickedDevice& ticked, Steps& steps, const DeviceTestOptions& options) {
+  calibrateFirst(ticked, steps, options);
+  if (steps.failed() > 0) return {0.0, "its pose is not known"};
   if (canAsk(options)) {
     print("Take your hands off the handle, or rest it, for a second.\n");
     flushOutput();
   }
-  steps.add(measureNoise(ticked));
-  if (!canAsk(options)) return steps.add({"axes", Result::Skipped, "nobody is at a terminal to be asked"});
-  for (TestStep& step : askForMotions(ticked))
+  const MeasuredNoise noise = measureNoise(ticked);
+  steps.add(noise.step);
+  if (noise.step.result != Result::Passed) return {noise.rms, "its pose is not at rest"};
+  if (!canAsk(options)) {
+    steps.add({"axes", Result::Skipped, "nobody is at a terminal to be asked"});
+    if (options.allowsUnjudgedAxes) return {noise.rms, ""};
+    return {
+        noise.rms,
+        "the axes were not judged, and on one that is reversed walls would pull: run it at a terminal, or "
+        "give --unjudged-axes"};
+  }
+  BeforeForces before{noise.rms, ""};
+  for (TestStep& step : askForMotions(ticked)) {
+    if (before.obstacle.empty() && step.result != Result::Passed)
+      before.obstacle = step.name + " did not pass";
     steps.add(std::move(step));
+  }
+  return before;
 }
 
-void testForces(TickedDevice& ticked, Steps& steps, const DeviceTestOptions& options) {
+void testForces(TickedDevice& ticked, Steps& steps, const DeviceTestOptions& options,
+                const BeforeForces& before) {
   HapticDevice& device = ticked.device();
   const DeviceInfo info = device.info();
   if (info.forceAxes == 0) return steps.add({"forces", Result::Skipped, "this device does not push"});
-  const double force = std::min(kTestForce, info.limits.maxForce);
-  if (!options.hasConsent && !(canAsk(options) && asksForConsent(ticked, force)))
+  if (!before.obstacle.empty()) return steps.add({"forces", Result::Skipped, "left out: " + before.obstacle});
+  if (!options.hasConsent && !(canAsk(options) && asksForConsent(ticked, info)))
     return steps.add({"forces", Result::Skipped, "not confirmed: type yes, or give --yes"});
-  if (device.state() == DeviceState::Uncalibrated) {
-    steps.add(waitForCalibration(ticked, options.isJson));
-    if (steps.failed() > 0) return;
-  }
+  calibrateFirst(ticked, steps, options);
+  if (steps.failed() > 0) return;
   steps.add(armed(device));
   if (steps.failed() > 0) return;
-  for (const double first : kFirstForces) {
-    if (options.report.empty() || steps.failed() > 0) break;
-    steps.add(push(ticked, fmt::format("push {:.1f} N", first), {0.0, 0.0, 1.0}, std::min(first, force)));
-  }
-  const std::array<std::pair<const char*, glm::dvec3>, 3> pushes = {
-      {{"push x", {1.0, 0.0, 0.0}}, {"push y", {0.0, 1.0, 0.0}}, {"push z", {0.0, 0.0, 1.0}}}};
-  for (const auto& [name, axis] : pushes) {
+  const bool isForReport = !options.report.empty();
+  for (const DevicePush& push : pushesOf(info, isForReport)) {
     if (steps.failed() > 0) break;
-    steps.add(push(ticked, name, axis, force));
+    steps.add(pushHandle(ticked, push));
   }
+  if (isForReport && steps.failed() == 0) steps.add(measureLatency(ticked, testForceOf(info), before.noise));
   steps.add(disarmed(ticked));
 }
 
@@ -316,10 +271,11 @@ void testDevice(HapticDevice& device, const DeviceTestOptions& options) {
     steps.add({"open", Result::Passed, name + ", " + ticked.grant().describe()});
     for (TestStep& step : watchReports(ticked))
       steps.add(std::move(step));
+    BeforeForces before;
     if (!options.report.empty() && steps.failed() == 0 && !InterruptGuard::isInterrupted())
-      watchForReport(ticked, steps, options);
+      before = watchForReport(ticked, steps, options);
     // No forces on a device whose poses cannot be trusted.
-    if (steps.failed() == 0 && !InterruptGuard::isInterrupted()) testForces(ticked, steps, options);
+    if (steps.failed() == 0 && !InterruptGuard::isInterrupted()) testForces(ticked, steps, options, before);
   }
   steps.printJson(name);
   // Written whatever came of it: what failed is what its reader wants to know.

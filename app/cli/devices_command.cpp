@@ -29,9 +29,11 @@ constexpr const char* kDevicesFooter =
     R"(DEVICE is a driver (openhap, spacemouse, falcon, polhem, plugin), an id (046d:c626), a place (1-4.2), a node of
 /dev or a part of the name; default: the first usable device.
 --test opens the device and watches its reports and poses for 2 s. Then, only if you type yes or give --yes, it
-arms the device and pushes with at most 0.5 N for a second along each axis, while you hold the handle.
---report OUT.json with it also measures the noise at rest, asks for a motion along each axis and begins at 0.1 N; the
-file says what was found, and holds no serial number.
+arms the device and pushes with at most 0.5 N for a second along each axis, with motors for torque also with at most
+0.05 N m about each, while you hold the handle.
+--report OUT.json with it also measures the noise at rest, asks for a motion along and about each axis, begins at 0.1 N
+and measures the latency. Forces follow only if each axis passed; where nobody is at a terminal they are left out, unless
+you give --unjudged-axes too. The file says what was found, and holds no serial number.
 --monitor --arm arms it as soon as it is ready; it then damps motion with 2 N s/m, at most 0.5 N, none above 0.6 m/s.
 Otherwise no device is armed, and none pushes.
 Exit code: 0 even if nothing is plugged in; 1 if the chosen device is missing, is lost or fails the test.)";
@@ -42,7 +44,7 @@ constexpr int kLooksBetweenLists = 10;
 
 struct DevicesOptions {
   bool isJson = false, printsRules = false, watches = false, hasConsent = false, isCalibrating = false,
-       isArming = false;
+       isArming = false, allowsUnjudgedAxes = false;
   std::string monitored, tested, report;
   CLI::Option *monitor = nullptr, *test = nullptr;
   std::optional<double> seconds;
@@ -105,6 +107,8 @@ void runDevices(const DevicesOptions& options) {
     throw UsageError("--yes", "it is for --test", "leave it out");
   if (!options.report.empty() && options.test->empty())
     throw UsageError("--report", "it is for --test", "leave it out");
+  if (options.allowsUnjudgedAxes && options.report.empty())
+    throw UsageError("--unjudged-axes", "it is for --test with --report", "leave it out");
   if (options.isArming && options.monitor->empty())
     throw UsageError("--arm", "it is for --monitor", "leave it out");
   if (options.rate.isGiven() && options.monitor->empty() && options.test->empty())
@@ -121,7 +125,8 @@ void runDevices(const DevicesOptions& options) {
   if (!options.test->empty()) {
     const std::unique_ptr<HapticDevice> device = deviceMeant(options.tested, options.files);
     applyRateOptions(options.rate, *device);
-    return testDevice(*device, {options.hasConsent, options.isJson, options.isCalibrating, options.report});
+    return testDevice(*device, {options.hasConsent, options.isJson, options.isCalibrating, options.report,
+                                options.allowsUnjudgedAxes});
   }
   const PluginSearch plugins = loadPlugins(pluginFolders());
   std::vector<MissingDriver> missing;
@@ -157,6 +162,8 @@ void addDevicesCommand(CLI::App& program) {
       ->add_option("--report", options->report,
                    "With --test: test more, step by step, and write what was found, to send in")
       ->type_name("FILE");
+  command->add_flag("--unjudged-axes", options->allowsUnjudgedAxes,
+                    "With --report: push even if nobody is at a terminal to say which way each axis goes");
   command->add_flag("--arm", options->isArming,
                     "With --monitor: resist motion weakly, at most 0.5 N; hold the handle");
   command->add_flag("--calibrate", options->isCalibrating, kCalibrateHelp);

@@ -137,8 +137,8 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
     const Wrench damping = passivity_.damping(limits, period);
     wrench.force += damping.force;
     wrench.torque += damping.torque;
-    // Not merely clamped: it would count as a force at its limit.
-    if (!isTorqueFelt_) wrench.torque = glm::dvec3(0.0);
+    // Not merely clamped: it would count as a force at its limit. Also of a device that senses no turning (an omega.3).
+    if (!(limits.maxTorque > 0.0)) wrench.torque = glm::dvec3(0.0);
     const bool isUsable = isFinite(wrench.force) && isFinite(wrench.torque);
     if (fault_ == ServoFault::None && !isUsable) fault_ = ServoFault::WrenchNotFinite;
     if (fault_ == ServoFault::None) send(tick, wrench, input);

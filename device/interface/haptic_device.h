@@ -38,6 +38,7 @@ struct DeviceInfo {
   double reportPeriod = 0.0;  ///< Period of the reports that pace the servo [s]; 0: the servo sets the pace.
   bool isMapped = true;       ///< False: poses are final, and workspace mapping does not apply.
   int sensedAxes = 6;         ///< Axes that it senses: 3 (its handle does not turn, or unseen) or 6.
+  double maxSpeed = 0.0;      ///< Above it the device is stopped [m/s]; 0: by SafetyLimits alone.
 
   /// True if the hand can turn it and feels nothing of what turning meets (HandleInput::isTorqueFelt).
   bool isTurningUnfelt() const noexcept { return sensedAxes == 6 && forceAxes == 3; }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -60,18 +61,50 @@ struct stat statusOf(const Opened& opened, const fs::path& file) {
   return status;
 }
 
+bool isTrusted(const struct stat& status) noexcept {
+  return status.st_uid == 0 || status.st_uid == ::geteuid();
+}
+
 /// The plug-in's code runs as the user, so nobody else may have written it.
 /// @param what   "it", the file, or "its folder".
 /// @param place  Path of either.
 void checkOwner(const struct stat& status, const fs::path& file, const std::string& what,
                 const fs::path& place) {
-  if (status.st_uid != 0 && status.st_uid != ::geteuid())
+  if (!isTrusted(status))
     refuse(file, what + " belongs to another user", "have it installed by root, or copy it yourself");
   if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0)
     refuse(file, "other users can write to " + what, "run: chmod go-w " + place.string());
 }
 
-/// Opens a plug-in's file and checks it and its folder through descriptors: names may stand for other files a
+/// Whoever may write to a folder above can put another folder in the place of what is in it. In a sticky one, as /tmp,
+/// nobody can but the owner of what is replaced.
+/// @param folder  The file's own, which is checked by itself.
+void checkFoldersAbove(const fs::path& file, const Opened& folder, const fs::path& place) {
+  int below = folder.descriptor();
+  struct stat statusBelow = statusOf(folder, file);
+  std::optional<Opened> kept;
+  fs::path name = place;
+  for (;;) {
+    // By "..", not by name: no link leads past a folder.
+    Opened above(::openat(below, "..", O_PATH | O_DIRECTORY | O_CLOEXEC));
+    const struct stat status = statusOf(above, file);
+    name = name.parent_path();
+    const bool isRoot = status.st_dev == statusBelow.st_dev && status.st_ino == statusBelow.st_ino;
+    if (isRoot) return;
+    const std::string what = "the folder " + name.string() + " above it";
+    const bool isSticky = (status.st_mode & S_ISVTX) != 0 && isTrusted(statusBelow);
+    if (!isTrusted(status))
+      refuse(file, what + " belongs to another user", "have it installed by root, or copy it yourself");
+    if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0 && !isSticky)
+      refuse(file, "other users can write to " + what, "run: chmod go-w " + name.string());
+    statusBelow = status;
+    const int next = above.release();
+    kept.emplace(next);
+    below = next;
+  }
+}
+
+/// Opens a plug-in's file and checks it and its folders through descriptors: names may stand for other files a
 /// moment later. Returns the file's descriptor.
 int openChecked(const fs::path& file) {
   const fs::path whole = fs::absolute(file);
@@ -83,6 +116,7 @@ int openChecked(const fs::path& file) {
   if (!S_ISREG(status.st_mode)) refuse(file, "it is not a file", "put the plug-in file there");
   checkOwner(status, file, "it", file);
   checkOwner(folderStatus, file, "its folder", whole.parent_path());
+  checkFoldersAbove(file, folder, fs::weakly_canonical(whole.parent_path()));
   return opened.release();
 }
 
@@ -218,10 +252,13 @@ PluginSearch loadPlugins(const std::vector<fs::path>& folders) {
 }
 
 std::vector<fs::path> pluginFolders() {
+  return pluginFolders(::getauxval(AT_SECURE) != 0);
+}
+
+std::vector<fs::path> pluginFolders(bool isPrivileged) {
   std::vector<fs::path> folders;
   // A program with more rights than its caller lets nobody's environment name code to load.
-  const bool isPrivileged = ::getauxval(AT_SECURE) != 0;
-  if (const char* named = ::secure_getenv("NEARFIT_PLUGINS")) {
+  if (const char* named = isPrivileged ? nullptr : ::secure_getenv("NEARFIT_PLUGINS")) {
     std::istringstream list(named);
     for (std::string folder; std::getline(list, folder, ':');) {
       if (!folder.empty()) folders.emplace_back(folder);

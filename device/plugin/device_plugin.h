@@ -15,7 +15,8 @@ namespace nearfit {
 class DevicePlugin {
  public:
   /// Loads a shared library, whose code then runs with the user's rights. So only files that belong to the user
-  /// or root and that nobody else can write are accepted, in such folders. What was checked is loaded, even if
+  /// or root and that nobody else can write are accepted, in such folders; so are the folders above, up to the root, but
+  /// for sticky ones (/tmp), which others may write to. What was checked is loaded, even if
   /// the name stands for another file by then. Throws DeviceError with the reason: not a library, not a plug-in,
   /// another version, another user's, writable by others.
   static std::shared_ptr<const DevicePlugin> load(const std::filesystem::path& file);
@@ -63,6 +64,9 @@ std::string descriptionProblem(NearfitDeviceDescription& device);
 /// beside the program's folder, in /usr/local/lib and in /usr/lib. A program that runs with more rights than its caller
 /// takes nothing from the environment.
 std::vector<std::filesystem::path> pluginFolders();
+/// The same for a program of which it is known.
+/// @param isPrivileged  It runs with more rights than its caller.
+std::vector<std::filesystem::path> pluginFolders(bool isPrivileged);
 
 /// Creates a plug-in's device; opens nothing yet.
 /// @param index   Index in the latest devices().

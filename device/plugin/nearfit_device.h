@@ -27,7 +27,7 @@ extern "C" {
 /* A device that is plugged in. All numbers are finite and >= 0, and `rate` is 0 or from 100 to 20000; texts are UTF-8 and
  * end in a zero byte. */
 typedef struct NearfitDeviceDescription {
-  char name[128];            /* Shown to the user. */
+  char name[128];            /* Shown to the user; may end with its driver's version. */
   char serial[64];           /* Serial number; empty if it has none. */
   int32_t sensed_axes;       /* Axes that it senses: 3 (place) or 6 (place and orientation). */
   int32_t force_axes;        /* Axes that it can push along: 0 (no force), 3 or 6 (force and torque). */

@@ -70,6 +70,9 @@ class PluginDevice final : public HapticDevice {
         std::string(description_.name) + " (" + plugin_->name() + ")", description_.force_axes, {}};
     info.sensedAxes = description_.sensed_axes;
     if (isPacing()) info.reportPeriod = 1.0 / description_.rate;
+    SafetyLimits safety = safety_;
+    safety.keepBelow(description_.max_speed);
+    info.maxSpeed = safety.faultSpeed;
     DeviceLimits& limits = info.limits;
     if (description_.force_axes == 0) return info;
     limits.maxForce = description_.max_force;

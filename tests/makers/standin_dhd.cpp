@@ -90,6 +90,12 @@ int dhdOpenID(char id) {
 int dhdClose(char id) {
   return closeDevice(id);
 }
+void dhdGetSDKVersion(int* major, int* minor, int* release, int* revision) {
+  *major = 3;
+  *minor = 17;
+  *release = 1;
+  *revision = 2;
+}
 int dhdGetSystemType(char) {
   return modelNow();
 }

@@ -225,7 +225,18 @@ void hdGetDoublev(std::uint32_t what, double* out) {
   }
 }
 const char* hdGetString(std::uint32_t what) {
-  return what == 0x2501 ? (hasTorque() ? "PHANTOM Premium 6DOF" : "Touch") : what == 0x2504 ? "31415" : "";
+  switch (what) {
+    case 0x2500:
+      return "3.50.0";
+    case 0x2501:
+      return hasTorque() ? "PHANTOM Premium 6DOF" : "Touch";
+    case 0x2502:
+      return "2.7";
+    case 0x2504:
+      return "31415";
+    default:
+      return "";
+  }
 }
 void hdSetDoublev(std::uint32_t what, const double* in) {
   StandinDevice& device = hd().device(hd().current);

@@ -32,6 +32,7 @@ DhdApi::DhdApi() : library_({"libdrd.so", "libdrd.so.3", "libdhd.so", "libdhd.so
   library_.find(stopRegulation, "drdStop");
   library_.find(getGripperAngle, "dhdGetGripperAngleRad");
   library_.find(getMaxForce, "dhdGetMaxForce");
+  library_.find(getSdkVersion, "dhdGetSDKVersion");
   // A device that libdrd.so is to calibrate has to be opened by it.
   if (!canCalibrate() || !library_.find(openId, "drdOpenID") || !library_.find(close, "drdClose")) {
     library_.take(openId, "dhdOpenID", kDhdRemedy);

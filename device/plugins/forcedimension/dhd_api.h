@@ -24,7 +24,7 @@ constexpr int kOffByVelocity = 2, kOffByWatchdog = 3, kOffByUsb = 5;
 constexpr unsigned char kOn = 1, kOff = 0;
 }  // namespace dhd
 
-/// The functions, found in libdrd.so or libdhd.so at run time. Each takes the device's ID last.
+/// The functions, found in libdrd.so or libdhd.so at run time. Each that is for a device takes its ID last.
 struct DhdApi {
   /// Throws DriverMissing that says what to install.
   DhdApi();
@@ -55,6 +55,8 @@ struct DhdApi {
   int (*getGripperAngle)(double*, char) = nullptr;
   /// Of newer versions; null before: the limit set in the device [N], negative if there is none. Only lowers ours.
   double (*getMaxForce)(char) = nullptr;
+  /// Null if the library lacks it: then the version is not shown. Major, minor, release and revision.
+  void (*getSdkVersion)(int*, int*, int*, int*) = nullptr;
 
   bool canCalibrate() const noexcept {
     return isInitialized != nullptr && autoInit != nullptr && stopRegulation != nullptr;

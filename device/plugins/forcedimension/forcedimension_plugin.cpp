@@ -164,8 +164,15 @@ class DhdDevice final : public NearfitDevice {
     description_ = usualDescription(index);
     const int type = api_.getSystemType(id_);
     const DhdModel model = modelOf(type);
-    if (const char* name = api_.getSystemName(id_); name != nullptr && *name != '\0')
-      plugin::copyText(name, description_.name, sizeof description_.name);
+    std::string name = description_.name;
+    if (const char* its = api_.getSystemName(id_); its != nullptr && *its != '\0') name = its;
+    // Reports of devices have nowhere else to say it.
+    if (api_.getSdkVersion != nullptr) {
+      std::array<int, 4> v{};
+      api_.getSdkVersion(&v[0], &v[1], &v[2], &v[3]);
+      name += ", SDK " + std::to_string(v[0]) + "." + std::to_string(v[1]) + "." + std::to_string(v[2]);
+    }
+    plugin::copyText(name, description_.name, sizeof description_.name);
     unsigned short serial = 0;
     if (api_.getSerialNumber(&serial, id_) >= 0)
       plugin::copyText(std::to_string(serial), description_.serial, sizeof description_.serial);

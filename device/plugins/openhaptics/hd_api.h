@@ -31,7 +31,8 @@ constexpr std::uint16_t kHdDefaultPriority = 0x7fff;
 
 namespace hd {
 constexpr HdEnum kCurrentButtons = 0x2000, kCurrentVelocity = 0x2051, kCurrentTransform = 0x2052;
-constexpr HdEnum kDeviceModelType = 0x2501, kDeviceSerialNumber = 0x2504;
+constexpr HdEnum kVersion = 0x2500, kDeviceModelType = 0x2501, kDeviceDriverVersion = 0x2502,
+                 kDeviceSerialNumber = 0x2504;
 constexpr HdEnum kInputDof = 0x2553, kOutputDof = 0x2554, kCalibrationStyle = 0x2555;
 constexpr HdEnum kUpdateRate = 0x2600, kNominalMaxStiffness = 0x2602, kNominalMaxForce = 0x2603;
 constexpr HdEnum kNominalMaxTorque = 0x2622;  // HD_NOMINAL_MAX_TORQUE_FORCE

@@ -185,8 +185,14 @@ class HdDevice final : public NearfitDevice {
       const char* const text = api_.getString(what);
       return takeErrors(api_) == hd::kSuccess && text != nullptr ? std::string(text) : std::string();
     };
-    if (const std::string model = textOf(hd::kDeviceModelType); !model.empty())
-      plugin::copyText(model, description_.name, sizeof description_.name);
+    std::string name = description_.name;
+    if (const std::string model = textOf(hd::kDeviceModelType); !model.empty()) name = model;
+    // Reports of devices have nowhere else to say them.
+    if (const std::string version = textOf(hd::kVersion); !version.empty())
+      name += ", OpenHaptics " + version;
+    if (const std::string version = textOf(hd::kDeviceDriverVersion); !version.empty())
+      name += ", driver " + version;
+    plugin::copyText(name, description_.name, sizeof description_.name);
     plugin::copyText(textOf(hd::kDeviceSerialNumber), description_.serial, sizeof description_.serial);
     description_.sensed_axes = integerOr(hd::kInputDof, 6) >= 6 ? 6 : 3;
     description_.force_axes = integerOr(hd::kOutputDof, 3) >= 6 ? 6 : 3;

@@ -1,3 +1,5 @@
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/cli/place_fixture.h"
+#include "tests/support/scoped_variable.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nearfit::test::devices_command_test {
 namespace {
@@ -51,6 +55,20 @@ TEST(DevicesCommand, WatchingEndsWhenItsTimeIsUp) {
     EXPECT_EQ(nlohmann::json::parse(line)["event"], "arrived");
 }
 
+TEST(DevicesCommand, AFolderOfPlugInsThatOthersMayWriteToIsRefusedWithAWord) {
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  const fs::path plugin = folder.path() / "driver.so";
+  std::ofstream(plugin) << "never loaded";
+  fs::permissions(plugin, fs::perms::owner_all);
+  fs::permissions(folder.path(), fs::perms::owner_all | fs::perms::group_write);
+  const ScopedVariable named("NEARFIT_PLUGINS", folder.path().string());
+  const ProcessResult result = runCli({"devices"});
+  EXPECT_THAT(result.err, AllOf(HasSubstr("warning: "), HasSubstr("driver.so"),
+                                HasSubstr("other users can write to its folder"),
+                                HasSubstr("run: chmod go-w " + folder.path().string())));
+}
+
 TEST(DevicesCommand, ADeviceThatIsNotThereIsSaidInOneLine) {
   for (const std::string option : {"--monitor", "--test"}) {
     const ProcessResult result = runCli({"devices", option, kNobodys});
@@ -69,6 +87,7 @@ TEST(DevicesCommand, OptionsThatDoNotGoTogetherAreRefused) {
       {{"--watch", "--seconds", "0"}, "--seconds: 0 is out of range"},
       {{"--calibrate"}, "--calibrate: it is for --monitor and --test"},
       {{"--yes"}, "--yes: it is for --test"},
+      {{"--test", kNobodys, "--unjudged-axes"}, "--unjudged-axes: it is for --test with --report"},
       {{"something"}, "something"},
   };
   for (const auto& [options, problem] : wrong) {

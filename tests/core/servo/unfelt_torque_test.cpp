@@ -109,6 +109,36 @@ TEST_F(UnfeltTorque, PushingFlatOnAFloorIsFeltAsEver) {
               0.1 * snapshot_->coupling.stiffness * stretch);
 }
 
+/// A device that does not sense turning (omega.3, Falcon): its handle stays upright, and it has no motors for torque.
+TEST_F(UnfeltTorque, OffCentreADeviceOfThreeMotorsFeelsTheForceThatOneOfSixFeels) {
+  auto scene = std::make_shared<ServoScene>();
+  scene->setMoving(
+      {PartId{1}, test::geometryOf(test::boxMesh({0.2, 0.04, 0.04})), {kUpright, {0.0, 0.0, kHeight}}});
+  // Under one end of the bar only.
+  scene->bodies.push_back(
+      {PartId{2}, test::geometryOf(test::boxMesh({0.04, 0.2, 0.1}, {0.09, 0.0, -0.05})), {}});
+  tracker_.setScene(scene);
+  const auto press = [&](double maxTorque) {
+    lead(true);
+    parameters_.limits.maxTorque = maxTorque;
+    wasClamped_ = false;
+    constexpr double kDeep = 0.004;  // [m]; half of it is the gap.
+    for (int i = 0; i < 1500; ++i)
+      tick(kUpright, kHeight - kDeep * std::min(1.0, i / 500.0));
+    const glm::dvec3 force = snapshot_->wrench.force;
+    for (int i = 0; i < 500; ++i)
+      tick(kUpright, kHeight - kDeep * (1.0 - i / 500.0));
+    return force;
+  };
+  const glm::dvec3 six = press(0.5);
+  EXPECT_GT(mostTorque_, 1e-3) << "it is off centre";
+  EXPECT_GT(six.z, 0.1);
+  const glm::dvec3 three = press(0.0);
+  EXPECT_EQ(mostTorque_, 0.0);
+  EXPECT_FALSE(wasClamped_) << "a torque that nothing renders is not at its limit";
+  EXPECT_LT(glm::length(three - six), 0.02 * glm::length(six));
+}
+
 /// Turned into the floor, lifted out turned and turned back in the air, then down again: over a round the hand must get
 /// nothing, though its turning does no work.
 TEST_F(UnfeltTorque, ARoundThatTurnsAndLiftsGivesNoEnergy) {

@@ -105,6 +105,31 @@ TEST(DevicePlugin, FilesInFoldersThatOthersMayWriteAreNotLoaded) {
   EXPECT_EQ(whyNot(copy), "");
 }
 
+TEST(DevicePlugin, FilesBelowFoldersThatOthersMayWriteAreNotLoaded) {
+  const test::TemporaryFolder folder;
+  const fs::path above = folder.path() / "above", inner = above / "inner", copy = inner / "copy.so";
+  fs::create_directories(inner);
+  fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, copy);
+  for (const fs::path& each : {copy, inner, above})
+    fs::permissions(each, fs::perms::owner_all);
+  EXPECT_EQ(whyNot(copy), "");
+  fs::permissions(above, fs::perms::owner_all | fs::perms::group_write);
+  EXPECT_THAT(whyNot(copy), HasSubstr("other users can write to the folder " + above.string() + " above it"));
+  // As /tmp: others may write to it, but replace nothing of ours.
+  fs::permissions(above, fs::perms::all | fs::perms::sticky_bit);
+  EXPECT_EQ(whyNot(copy), "");
+}
+
+TEST(DevicePlugin, AProgramWithMoreRightsThanItsCallerTakesNoFolderFromTheEnvironment) {
+  const test::ScopedVariable named("NEARFIT_PLUGINS", "/home/nobody/named");
+  const test::ScopedVariable data("XDG_DATA_HOME", "/home/nobody/data");
+  EXPECT_THAT(pluginFolders(false), testing::ElementsAre(fs::path("/home/nobody/named")));
+  const std::vector<fs::path> folders = pluginFolders(true);
+  EXPECT_FALSE(folders.empty());
+  for (const fs::path& each : folders)
+    EXPECT_THAT(each.string(), testing::Not(testing::StartsWith("/home/nobody")));
+}
+
 // The file was once checked by its name and then loaded by its name.
 TEST(DevicePlugin, WhatIsCheckedIsWhatIsLoadedHoweverItsNameChanges) {
   const test::TemporaryFolder folder;
