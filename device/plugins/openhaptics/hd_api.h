@@ -9,6 +9,7 @@
 /// Functions, their meaning, units and errors: OpenHaptics Toolkit, API Reference Guide (device, calibration and scheduler
 /// routines). Values of the constants: ManagedPhantom, an open binding for C# (MIT, Kirurobo 2013), whose names are those
 /// of the guide. HD_CURRENT_TORQUE is not in it; two open bindings differ, and 0x2701, which nothing else has, is taken.
+/// OpenHaptics 3.0 deprecates it in favour of torques of joints and gimbal.
 namespace nearfit::openhaptics {
 
 using HdHandle = std::uint32_t;           // HHD
