@@ -177,7 +177,7 @@ TEST_P(EachMaker, IsStoppedWhenItsDriverStalls) {
 
 TEST_P(EachMaker, ClosesWhileItStallsAndPushesNoMore) {
   // A service that hangs is waited for so long, and no longer.
-  const ScopedVariable patience("NEARFIT_HAPLY_PATIENCE", "5000");
+  const ScopedVariable patience("NEARFIT_HAPLY_PATIENCE", "2000");
   open();
   servo->send(kPush);
   arm();
