@@ -24,17 +24,19 @@ struct MakerModel {
   Maker maker;
   int model;  ///< Standin::model.
   int sensedAxes, forceAxes;
-  double rate;  ///< [Hz]
+  double rate;      ///< [Hz]
+  double maxForce;  ///< As its driver or its maker names it [N].
 };
 
-inline constexpr std::array kMakerModels = {MakerModel{"Touch", Maker::OpenHaptics, 0, 6, 3, 1000.0},
-                                            MakerModel{"Phantom", Maker::OpenHaptics, 6, 6, 6, 1000.0},
-                                            MakerModel{"Omega3", Maker::ForceDimension, 33, 3, 3, 4000.0},
-                                            MakerModel{"Omega6", Maker::ForceDimension, 34, 6, 3, 4000.0},
-                                            MakerModel{"Sigma7", Maker::ForceDimension, 104, 6, 6, 4000.0},
-                                            MakerModel{"Inverse3", Maker::Haply, 3, 3, 3, 1000.0},
-                                            MakerModel{"Inverse3WithGrip", Maker::Haply, 0, 6, 3, 1000.0},
-                                            MakerModel{"Inverse3Format31", Maker::Haply, 31, 6, 3, 1000.0}};
+inline constexpr std::array kMakerModels = {
+    MakerModel{"Touch", Maker::OpenHaptics, 0, 6, 3, 1000.0, 3.3},
+    MakerModel{"Phantom", Maker::OpenHaptics, 6, 6, 6, 1000.0, 8.5},
+    MakerModel{"Omega3", Maker::ForceDimension, 33, 3, 3, 4000.0, 12.0},
+    MakerModel{"Omega6", Maker::ForceDimension, 34, 6, 3, 4000.0, 12.0},
+    MakerModel{"Sigma7", Maker::ForceDimension, 104, 6, 6, 4000.0, 20.0},
+    MakerModel{"Inverse3", Maker::Haply, 3, 3, 3, 1000.0, 3.0},
+    MakerModel{"Inverse3WithGrip", Maker::Haply, 0, 6, 3, 1000.0, 3.0},
+    MakerModel{"Inverse3Format31", Maker::Haply, 31, 6, 3, 1000.0, 3.0}};
 
 inline std::ostream& operator<<(std::ostream& out, const MakerModel& model) {
   return out << model.name;

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -14,6 +16,7 @@
 #include "device/interface/device_supervisor.h"
 #include "tests/makers/maker_bench.h"
 #include "tests/support/eventually.h"
+#include "tests/support/scoped_variable.h"
 
 namespace nearfit::maker_plugin_test {
 namespace {
@@ -21,6 +24,7 @@ namespace {
 using test::eventually;
 using test::Maker;
 using test::MakerModel;
+using test::ScopedVariable;
 using testing::HasSubstr;
 
 glm::dvec3 vectorOf(const test::Triple& v) {
@@ -67,8 +71,7 @@ TEST_P(EachMaker, IsListedWithWhatItSensesAndPushes) {
   EXPECT_EQ(info.sensedAxes, GetParam().sensedAxes);
   EXPECT_EQ(info.forceAxes, GetParam().forceAxes);
   EXPECT_DOUBLE_EQ(info.reportPeriod, 1.0 / GetParam().rate);
-  EXPECT_GT(info.limits.maxForce, 1.0);
-  EXPECT_LE(info.limits.maxForce, 20.0);
+  EXPECT_DOUBLE_EQ(info.limits.maxForce, GetParam().maxForce);
   EXPECT_EQ(info.limits.maxTorque > 0.0, GetParam().forceAxes == 6);
   EXPECT_EQ(info.isTurningUnfelt(), GetParam().sensedAxes == 6 && GetParam().forceAxes == 3);
 }
@@ -172,6 +175,29 @@ TEST_P(EachMaker, IsStoppedWhenItsDriverStalls) {
   EXPECT_TRUE(becomes(DeviceState::Ready)) << device->stateNote();
 }
 
+TEST_P(EachMaker, ClosesWhileItStallsAndPushesNoMore) {
+  // A service that hangs is waited for so long, and no longer.
+  const ScopedVariable patience("NEARFIT_HAPLY_PATIENCE", "2000");
+  open();
+  servo->send(kPush);
+  arm();
+  ASSERT_TRUE(eventually([&] { return vectorOf(bench.device().force.get()).z < -0.5; }));
+  bench.device().isStalled = true;
+  servo->stop();
+  std::future<void> closed = std::async(std::launch::async, [this] { device->stop(); });
+  const bool hasClosed = closed.wait_for(test::kPatience) == std::future_status::ready;
+  EXPECT_TRUE(hasClosed) << "it waits for a driver that hangs";
+  bench.device().isStalled = false;
+  closed.get();
+  EXPECT_TRUE(eventually([&] { return !bench.device().isOpen; })) << "what was left behind ends";
+  EXPECT_TRUE(eventually([&] { return vectorOf(bench.device().force.get()) == glm::dvec3(0.0); }));
+  // It can be opened again, and has forgotten that it was armed.
+  device->start({});
+  servo.emplace(*device);
+  EXPECT_TRUE(becomes(DeviceState::Ready)) << device->stateNote();
+  EXPECT_FALSE(servo->last().isArmed);
+}
+
 TEST_P(EachMaker, CannotBeArmedBeforeItsPoseIsKnown) {
   bench.device().isCalibrated = false;
   // An inkwell: OpenHaptics' others calibrate by themselves.
@@ -202,15 +228,21 @@ std::vector<MakerFault> faultsOf(Maker maker) {
       return {{0x200, 0, DeviceFault::Hot},        {0x201, 0, DeviceFault::Overloaded},
               {0x202, 0, DeviceFault::Overloaded}, {0x203, 0, DeviceFault::TooFast},
               {0x204, 0, DeviceFault::Overloaded}, {0x300, 0, DeviceFault::Reported},
-              {0x304, 0, DeviceFault::Reported},   {0x302, 0, DeviceFault::None}};
+              {0x304, 0, DeviceFault::Reported},   {0x303, 0, DeviceFault::Reported},
+              {0x102, 0, DeviceFault::Reported},   {0x600, 0, DeviceFault::Reported},
+              {0x302, 0, DeviceFault::None}};
     case Maker::ForceDimension:
-      return {{7, 0, DeviceFault::BrokenLink},  {3, 0, DeviceFault::BrokenLink},
-              {1, 0, DeviceFault::Reported},    {0, 2, DeviceFault::TooFast},
-              {0, 3, DeviceFault::BrokenLink},  {0, 1, DeviceFault::SwitchedOff},
-              {0, 6, DeviceFault::SwitchedOff}, {2, 0, DeviceFault::None},
-              {5, 0, DeviceFault::None},        {7, 0, DeviceFault::None}};
+      return {
+          {7, 0, DeviceFault::BrokenLink},  {3, 0, DeviceFault::BrokenLink}, {1, 0, DeviceFault::Reported},
+          {8, 0, DeviceFault::Reported},    {18, 0, DeviceFault::Reported},  {0, 2, DeviceFault::TooFast},
+          {0, 3, DeviceFault::BrokenLink},  {0, 5, DeviceFault::BrokenLink}, {0, 1, DeviceFault::SwitchedOff},
+          {0, 6, DeviceFault::SwitchedOff}, {2, 0, DeviceFault::None},       {5, 0, DeviceFault::None},
+          {12, 0, DeviceFault::None},       {7, 0, DeviceFault::None}};
     case Maker::Haply:
-      return {{3, 0, DeviceFault::SwitchedOff}, {1, 0, DeviceFault::None}, {2, 0, DeviceFault::None}};
+      return {{3, 0, DeviceFault::SwitchedOff},
+              {4, 0, DeviceFault::Reported},
+              {1, 0, DeviceFault::None},
+              {2, 0, DeviceFault::None}};
   }
   return {};
 }
@@ -327,6 +359,28 @@ TEST(ForceDimensionDevice, APoseThatWasAskedForTooEarlyIsNoNewOne) {
   bench.device().status = -2;
   EXPECT_TRUE(eventually([&] { return device->state() == DeviceState::Fault; })) << "the pose stays the same";
   EXPECT_THAT(device->stateNote(), HasSubstr(faultReason(DeviceFault::Silent)));
+}
+
+TEST(ForceDimensionDevice, ALimitThatIsSetInItLowersItsForceOnly) {
+  test::MakerBench bench(test::kMakerModels[3]);
+  const std::unique_ptr<HapticDevice> device = bench.make();
+  for (const auto& [set, used] : {std::pair{5.0, 5.0}, std::pair{-1.0, 12.0}, std::pair{50.0, 12.0}}) {
+    bench.device().maxForce = set;
+    device->start({});
+    EXPECT_DOUBLE_EQ(device->info().limits.maxForce, used) << set;
+    device->stop();
+  }
+}
+
+TEST(OpenHapticsDevice, ItsDriversSpeedLimitLowersOursOnly) {
+  test::MakerBench bench(test::kMakerModels[0]);
+  const std::unique_ptr<HapticDevice> device = bench.make(0, SafetyLimits{});
+  for (const auto& [set, used] : {std::pair{1.5, 1.5}, std::pair{0.0, 3.0}, std::pair{50.0, 3.0}}) {
+    bench.device().maxSpeed = set;
+    device->start({});
+    EXPECT_DOUBLE_EQ(device->info().maxSpeed, used) << set;
+    device->stop();
+  }
 }
 
 TEST(ForceDimensionDevice, ItsGripIsHowFarItsGripperIsOpen) {

@@ -1,7 +1,10 @@
 // nearfit-cli, unchanged, with the plug-ins beside it: what it lists with and without each maker's driver, and a part led
 // by each device.
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +19,9 @@
 #include "device/interface/device_supervisor.h"
 #include "tests/makers/maker_bench.h"
 #include "tests/makers/standin_haply.h"
+#include "tests/support/eventually.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/mesh_text.h"
 #include "tests/support/run_process.h"
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
@@ -103,7 +109,25 @@ TEST_F(MakerProgram, ListsTheDevicesOfDriversThatAreThere) {
 TEST_F(MakerProgram, NamesTheFunctionThatAnOldDriverLacks) {
   install(NEARFIT_STANDINS "/old");
   setUpTouch();
-  EXPECT_THAT(run({"devices"}).out, HasSubstr("\nOpenHaptics: libHD.so lacks hdUnschedule"));
+  const test::ProcessResult text = run({"devices"});
+  EXPECT_THAT(text.out, HasSubstr("\nOpenHaptics: libHD.so lacks hdUnschedule"));
+  EXPECT_THAT(text.out, HasSubstr("\nForce Dimension: libdhd.so lacks dhdGetButtonMask"));
+}
+
+TEST_F(MakerProgram, DoesWithoutFunctionsThatADriverMayLack) {
+  install(NEARFIT_STANDINS "/spare");
+  // A sigma.7, whose gripper this version of the SDK cannot read, nor say which version it is.
+  const ScopedVariable sigma("NEARFIT_STANDIN_MODEL", "104");
+  const test::ProcessResult shown =
+      run({"devices", "--monitor", "forcedimension:1", "--json", "--seconds", "0.6"});
+  ASSERT_NE(shown.out, "") << shown.err;
+  const auto last = nlohmann::json::parse(shown.out.substr(0, shown.out.find('\n')));
+  EXPECT_TRUE(last["grip"].is_null()) << last;
+  const fs::path file = folder_.path() / "report.json";
+  run({"devices", "--test", "forcedimension:1", "--json", "--report", file.string()});
+  const auto name = nlohmann::json::parse(std::ifstream(file))["device"].get<std::string>();
+  EXPECT_THAT(name, testing::StartsWith("sigma.7"));
+  EXPECT_THAT(name, Not(HasSubstr("SDK")));
 }
 
 /// A maker's device, as a report names it and what it senses and pushes.
@@ -161,6 +185,80 @@ TEST_F(MakerProgram, EachDeviceLeadsAPart) {
     EXPECT_TRUE(result.exitCode == 0 || isLate(result.err)) << device << "\n" << result.out << result.err;
     EXPECT_THAT(result.out, HasSubstr("round trip")) << device;
   }
+}
+
+/// A peg over a floor, and what a hand feels that leads it down by a maker's device.
+class MakerProgramInContact : public MakerProgram {
+ protected:
+  static constexpr double kPegGap = 0.002;         ///< Between them at first [m].
+  static constexpr const char* kSinking = "0.02";  ///< The hand's, in the device's own time [m/s].
+
+  MakerProgramInContact() {
+    install(NEARFIT_STANDINS "/whole");
+    setUpTouch();
+    folder_.write("peg.obj", test::objText(test::boxMesh({0.04, 0.04, 0.1}, {0.0, 0.0, 0.05 + kPegGap})));
+    folder_.write("floor.obj", test::objText(test::boxMesh({0.4, 0.4, 0.1}, {0.0, 0.0, -0.05})));
+    const test::ProcessResult made =
+        runCli({"scene", "new", scene(), "--unit", "m", "--part", "Floor=" + pathOf("floor.obj"), "--part",
+                "Peg=" + pathOf("peg.obj"), "--moving", "Peg"});
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+  }
+  std::string pathOf(const char* name) const { return (folder_.path() / name).string(); }
+  std::string scene() const { return pathOf("fit.nearfit"); }
+  test::ProcessResult place(const char* device, const char* seconds) {
+    return run({"place", scene(), "--part", "Peg", "--device", device, "--arm", "--seconds", seconds,
+                "--record", pathOf("felt.csv")});
+  }
+  /// Presses the peg on the floor for some seconds. Returns true if it was felt; a busy machine stops a device, or leaves it
+  /// too little of its own time.
+  bool isFelt(const char* device) {
+    const ScopedVariable sinking("NEARFIT_STANDIN_SINKING", kSinking);
+    service_ = std::make_unique<test::HaplyStandin>();
+    fs::remove(pathOf("felt.csv"));
+    const test::ProcessResult result = place(device, "2");
+    EXPECT_TRUE(result.exitCode == 0 || isLate(result.err)) << device << "\n" << result.out << result.err;
+    if (!fs::exists(pathOf("felt.csv"))) return false;
+    bool wasFelt = false;
+    double lowest = 0.0;
+    for (const MotionRow& row : readMotion(pathOf("felt.csv"))) {
+      lowest = std::min(lowest, row.proxy.translation.z);
+      // Sent to the motors: without arming it is zero.
+      wasFelt = wasFelt || (row.contacts > 0 && row.wrench.force.z > kFeltForce);
+    }
+    EXPECT_GE(lowest, -kPegGap - kRounding) << device << ": the peg is in the floor";
+    return wasFelt;
+  }
+
+  static constexpr double kFeltForce = 0.5;  ///< More than the friction of the device [N].
+  /// Of turning a handle's pose into the part's [m].
+  static constexpr double kRounding = 1e-9;
+};
+
+TEST_F(MakerProgramInContact, EachDeviceFeelsTheFloor) {
+  for (const char* device : {"openhaptics:1", "forcedimension:1", "haply:1"})
+    EXPECT_TRUE(test::eventually([&] { return isFelt(device); })) << device;
+}
+
+TEST_F(MakerProgramInContact, ADeviceThatIsUnpluggedEndsTheRunAndIsBackOncePluggedInAgain) {
+  service_ = std::make_unique<test::HaplyStandin>();
+  test::StandinDevice& device = service_->devices().devices[0];
+  // Long enough: being unplugged ends it.
+  std::future<test::ProcessResult> ran =
+      std::async(std::launch::async, [this] { return place("haply:1", "60"); });
+  // A busy machine may end it before.
+  EXPECT_TRUE(test::eventually([&] {
+    return device.exchanges > 500 || ran.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }));
+  device.isPlugged = false;
+  const test::ProcessResult ended = ran.get();
+  EXPECT_NE(ended.exitCode, 0) << ended.out;
+  EXPECT_NE(ended.err, "");
+  const auto isListed = [this] { return listed()["devices"].dump().find("haply:1") != std::string::npos; };
+  EXPECT_FALSE(isListed());
+  device.isPlugged = true;
+  EXPECT_TRUE(isListed());
+  const test::ProcessResult again = place("haply:1", "0.5");
+  EXPECT_TRUE(again.exitCode == 0 || isLate(again.err)) << again.out << again.err;
 }
 
 TEST_F(MakerProgram, ARecordingHasTheGripOfADeviceWithAGripper) {

@@ -46,7 +46,10 @@ class StandinDevice {
   std::atomic<int> status{0};            ///< What a maker's status has besides errors; see each stand-in.
   std::atomic<bool> isCalibrated{true};  ///< Its pose is known; its maker's call calibrates it.
   std::atomic<int> buttons{0};
-  std::atomic<double> grip{kRestingGrip};  ///< Opening of its gripper, if its model has one [rad].
+  std::atomic<double> maxForce{-1.0};       ///< Limit that is set in it, of an omega [N]; negative: none.
+  std::atomic<double> maxSpeed{0.0};        ///< Above it a Touch's driver turns forces off [m/s]; 0: unknown.
+  std::atomic<double> sinking{sinkRate()};  ///< The hand's target sinks so fast, in the device's time [m/s].
+  std::atomic<double> grip{kRestingGrip};   ///< Opening of its gripper, if its model has one [rad].
 
   // Seen by tests.
   SharedTriple position, force, torque;  ///< [m]; as its motors were told last [N], [N m].
@@ -75,7 +78,9 @@ class StandinDevice {
   /// Moves on by `seconds`, with the force of the exchange before: the link is a sample late.
   void advance(double seconds) {
     const Triple next = force.get();
-    const Triple wanted = target.get();
+    sunk_ += sinking * std::min(seconds, kMaxTime);
+    Triple wanted = target.get();
+    wanted[2] -= sunk_;
     const int steps = std::max(1, static_cast<int>(std::ceil(std::min(seconds, kMaxTime) / kStep)));
     const double dt = std::min(seconds, kMaxTime) / steps;
     for (int i = 0; i < steps; ++i)
@@ -93,6 +98,9 @@ class StandinDevice {
     target.set({});
     turn = 0.0;
     grip = kRestingGrip;
+    maxForce = -1.0;
+    maxSpeed = 0.0;
+    sinking = sunk_ = 0.0;
     isPlugged = isCalibrated = true;
     isStalled = isOpen = false;
     error = status = buttons = 0;
@@ -134,8 +142,15 @@ class StandinDevice {
     maxEnergyGiven.store(std::max(maxEnergyGiven.load(), energyGiven.load()));
   }
 
+  /// Of a program that a test runs, by NEARFIT_STANDIN_SINKING.
+  static double sinkRate() {
+    const char* const text = std::getenv("NEARFIT_STANDIN_SINKING");
+    return text != nullptr ? std::atof(text) : 0.0;
+  }
+
   Triple at_{}, velocity_{}, acting_{};
-  double net_ = 0.0;  ///< Work of the motors less what the device took [J].
+  double sunk_ = 0.0;  ///< [m]
+  double net_ = 0.0;   ///< Work of the motors less what the device took [J].
 };
 
 /// The devices of a stand-in.

@@ -2,7 +2,8 @@
 // reference of the SDK describes them. Each exchange takes a quarter of a millisecond, as over USB. Models are DHD_DEVICE_...
 // numbers: 33, an omega.3; 34 (or 0), an omega.6; 104, a sigma.7. StandinDevice::error is a DHD_ERROR_... code that each
 // call fails with; StandinDevice::status a cause of forces off, whose forces are off then; -1, its power is off; -2, each
-// pose is asked for too early, and is the one before.
+// pose is asked for too early, and is the one before. With STANDIN_OLD it is a version that lacks a function that the plug-in
+// needs, with STANDIN_SPARE one that lacks those that it does without.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -18,7 +19,7 @@ using nearfit::test::StandinDevice;
 using nearfit::test::Triple;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kNoDevice = 5, kInUse = 18;
+constexpr int kNoDevice = 5, kInUse = 20;
 constexpr int kPowerOff = -1, kTooEarly = -2;  // Of StandinDevice::status.
 /// As a new version has it.
 constexpr int kStatusFields = 17;
@@ -90,12 +91,17 @@ int dhdOpenID(char id) {
 int dhdClose(char id) {
   return closeDevice(id);
 }
+#ifndef STANDIN_SPARE
 void dhdGetSDKVersion(int* major, int* minor, int* release, int* revision) {
   *major = 3;
   *minor = 17;
   *release = 1;
   *revision = 2;
 }
+double dhdGetMaxForce(char id) {
+  return dhd().device(id).maxForce;
+}
+#endif
 int dhdGetSystemType(char) {
   return modelNow();
 }
@@ -155,15 +161,19 @@ int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
   *z = v[2];
   return 0;
 }
+#ifndef STANDIN_OLD
 unsigned int dhdGetButtonMask(char id) {
   return static_cast<unsigned int>(dhd().device(id).buttons);
 }
+#endif
+#ifndef STANDIN_SPARE
 // Of a device for the right hand.
 int dhdGetGripperAngleRad(double* angle, char id) {
   if (!dhdHasGripper(id)) return -1;
   *angle = -dhd().device(id).grip;
   return 0;
 }
+#endif
 int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz,
                                         double, char id) {
   if (dhd().trouble(id) < 0) return -1;

@@ -180,7 +180,7 @@ struct HaplyStandin::Server {
                  {{"calibrated", device.isCalibrated.load()},
                   {"in_use", false},
                   {"power_supply", device.error != 3},
-                  {"ready", true},
+                  {"ready", device.error != 4},
                   {"started", true}}}};
       const char* const version = standin.model == 31 ? "firmware_version" : "major_version";
       if (isWhole) each["config"] = {{"type", "inverse3"}, {"device_info", {{version, 7}}}};

@@ -19,7 +19,8 @@ enum class HaplyHang {
 /// Stands in for Haply's Inverse Service: a WebSocket server on a free port of this computer, which sends the devices when
 /// it is connected to, and one state for each message that it gets (docs.haply.co, WebSocket Protocol, 3.5). A force holds
 /// for 20 ms, then the device is idle. Models: 0, an Inverse3 with a VerseGrip, format 3.5; 31, the same in format 3.1;
-/// 3, an Inverse3 alone. StandinDevice::error: 1, what it sends is no JSON; 2, it names no device; 3, its power is off.
+/// 3, an Inverse3 alone. StandinDevice::error: 1, what it sends is no JSON; 2, it names no device; 3, its power is off; 4, it
+/// is not ready.
 class HaplyStandin {
  public:
   HaplyStandin();

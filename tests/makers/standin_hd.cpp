@@ -215,7 +215,11 @@ void hdGetDoublev(std::uint32_t what, double* out) {
       *out = 1.0;  // N/mm
       return;
     case 0x2603:
-      *out = 3.3;
+      *out = hasTorque() ? 8.5 : 3.3;
+      return;
+    case 0x2606:
+      if (!(device.maxSpeed > 0.0)) return hd().fail(kInvalidEnum);
+      *out = device.maxSpeed / kMillimetre;
       return;
     case 0x2622:
       *out = 188.0;  // mN m

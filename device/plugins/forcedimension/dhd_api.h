@@ -6,7 +6,8 @@
 
 /// The part of Force Dimension's SDK that the plug-in uses, declared from its public documentation (DHD and DRD
 /// reference, SDK 3.7 to 3.17, on forcedimension.com). Values of the constants: forcedimension-python, an open binding
-/// (D. Chow); the cause of forces off and the delta.6 are not in it, and are as AMBF, an open simulator, has them.
+/// (D. Chow), whose error codes from 15 on leave out two; the cause of forces off and the delta.6 are not in it, and are as
+/// AMBF, an open simulator, has them.
 namespace nearfit::forcedimension {
 
 namespace dhd {

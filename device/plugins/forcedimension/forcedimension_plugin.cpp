@@ -62,7 +62,8 @@ constexpr Nanoseconds kAnswerPatience = 150'000;
 constexpr int kPosesPerStatus = 80;
 /// Failures in a row after which a device whose connection is disturbed counts as lost.
 constexpr int kMaxFailures = 20;
-/// Until the device's thread has done what it was asked for; what calibrates takes as long as the handle's way.
+/// Until the device's thread has done what it was asked for, or has ended; what calibrates takes as long as the
+/// handle's way.
 constexpr std::chrono::seconds kWorkTime{2}, kCalibrationTime{60};
 /// Before a pose is asked for again that was asked for too early: a fifth of the SDK's own guard of 0.25 ms.
 constexpr std::chrono::microseconds kEarlyPause{50};
@@ -89,11 +90,12 @@ NearfitDeviceDescription usualDescription(std::int32_t index) {
   return out;
 }
 
-/// A device of Force Dimension. A thread of its own exchanges poses and forces with it, as fast as its transfers go,
-/// and is the only one that calls the SDK for this device while it runs.
-class DhdDevice final : public NearfitDevice {
+/// What the thread of a device uses, and what others share with it. The thread keeps it: a call of the SDK that hangs may
+/// outlive the device.
+class DhdSession {
  public:
-  DhdDevice(const DhdApi& api, std::int32_t index) : api_(api) {
+  DhdSession(const DhdApi& api, std::int32_t index, std::shared_ptr<plugin::PoseExchange> exchange)
+      : api_(api), exchange_(std::move(exchange)) {
     // Compared as an int: a char has no sign on ARM.
     const int opened = api_.openId(static_cast<char>(index));
     if (opened < 0) throw PluginError(lastWords() + "; close other programs that use it");
@@ -103,27 +105,43 @@ class DhdDevice final : public NearfitDevice {
     hasGripper_ = api_.hasGripper(id_);
     if (hasGripper_) api_.emulateButton(dhd::kOn, id_);
     api_.enableForce(dhd::kOff, id_);
-    thread_ = std::thread([this] { run(); });
   }
-  /// Waits for a call of the SDK that hangs: nothing else can end it.
-  ~DhdDevice() override {
-    isEnding_.store(true, std::memory_order_release);
-    thread_.join();
+
+  // Device's thread.
+
+  /// Exchanges poses and forces until end() is called, then closes the device.
+  void run() {
+    for (int poses = 0; !isEnding_.load(std::memory_order_acquire); ++poses) {
+      work();
+      if (exchange_->isLost()) {
+        // If it hears again, it must not push on as it was told last.
+        api_.setWrench(0, 0, 0, 0, 0, 0, 0, id_);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        continue;
+      }
+      if (poses % kPosesPerStatus == 0) look();
+      exchangeOnce();
+    }
     api_.setWrench(0, 0, 0, 0, 0, 0, 0, id_);
     api_.enableForce(dhd::kOff, id_);
     api_.close(id_);
+    const std::lock_guard lock(workMutex_);
+    hasEnded_ = true;
+    workDone_.notify_all();
   }
 
-  NearfitDeviceDescription details() const override { return description_; }
-  void setForces(bool areOn) override {
-    if (!areOn) exchange().setForces(false);
+  // Controlling thread.
+
+  const NearfitDeviceDescription& details() const noexcept { return description_; }
+  void setForces(bool areOn) {
+    if (!areOn) exchange_->setForces(false);
     const std::string problem = ask([this, areOn] {
       return api_.enableForce(areOn ? dhd::kOn : dhd::kOff, id_) >= 0 ? std::string() : lastWords();
     });
     if (areOn && !problem.empty()) throw PluginError(problem);
-    exchange().setForces(areOn);
+    exchange_->setForces(areOn);
   }
-  void calibrate() override {
+  void calibrate() {
     if (api_.autoInit == nullptr) {
       if (!isCalibrated_.load(std::memory_order_acquire)) throw PluginError(kByHand);
       return;
@@ -139,15 +157,22 @@ class DhdDevice final : public NearfitDevice {
         kCalibrationTime);
     if (!problem.empty()) throw PluginError(problem);
   }
-  void reset() override {
+  void reset() noexcept {
     words_.store(nullptr, std::memory_order_release);
-    exchange().clearFault();
+    exchange_->clearFault();
   }
-  std::string note() const override {
+  std::string note() const {
     if (const char* words = words_.load(std::memory_order_acquire)) return words;
     if (isCalibrated_.load(std::memory_order_acquire)) return {};
     return api_.autoInit != nullptr ? "take your hands off it and calibrate it: it moves its handle by itself"
                                     : kByHand;
+  }
+  /// Ends run(): motors get no force from now on. Returns true once it has ended, false if that takes longer than kWorkTime.
+  bool end() {
+    exchange_->setForces(false);
+    isEnding_.store(true, std::memory_order_release);
+    std::unique_lock lock(workMutex_);
+    return workDone_.wait_for(lock, kWorkTime, [this] { return hasEnded_; });
   }
 
  private:
@@ -220,19 +245,6 @@ class DhdDevice final : public NearfitDevice {
     workDone_.notify_all();
   }
 
-  void run() {
-    for (int poses = 0; !isEnding_.load(std::memory_order_acquire); ++poses) {
-      work();
-      if (exchange().isLost()) {
-        // If it hears again, it must not push on as it was told last.
-        api_.setWrench(0, 0, 0, 0, 0, 0, 0, id_);
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        continue;
-      }
-      if (poses % kPosesPerStatus == 0) look();
-      exchangeOnce();
-    }
-  }
   void exchangeOnce() noexcept {
     glm::dvec3 position(0.0), velocity(0.0);
     std::array<std::array<double, 3>, 3> rows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -256,9 +268,11 @@ class DhdDevice final : public NearfitDevice {
     pose.buttons = api_.getButtonMask(id_);
     if (isCalibrated_.load(std::memory_order_acquire)) pose.flags = NEARFIT_DEVICE_CALIBRATED;
     takeGrip(pose);
-    exchange().publish(pose, arrived);
-    exchange().waitForWrench(arrived + kAnswerPatience);
-    const plugin::PluginWrench wrench = exchange().wrenchNow();
+    exchange_->publish(pose, arrived);
+    exchange_->waitForWrench(arrived + kAnswerPatience);
+    // A transfer may have hung until after the device was closed.
+    if (isEnding_.load(std::memory_order_acquire)) return;
+    const plugin::PluginWrench wrench = exchange_->wrenchNow();
     const glm::dvec3 force = kDhdFrame.toMaker(wrench.force), torque = kDhdFrame.toMaker(wrench.torque);
     // A positive result only says that it was too early or that a motor is at its limit.
     if (api_.setWrench(force.x, force.y, force.z, torque.x, torque.y, torque.z, 0.0, id_) < 0) return fail();
@@ -298,7 +312,7 @@ class DhdDevice final : public NearfitDevice {
     if (status[dhd::kStatusPower] == 0)
       return stop(NEARFIT_FAULT_SWITCHED_OFF, "its power supply is unplugged or off");
     if (status[dhd::kStatusError] != 0) return stop(NEARFIT_FAULT_OTHER, "its controller reported an error");
-    if (!exchange().areForcesOn() || status[dhd::kStatusForce] != 0) return;
+    if (!exchange_->areForcesOn() || status[dhd::kStatusForce] != 0) return;
     switch (status[dhd::kStatusForceOffCause]) {
       case dhd::kOffByVelocity:
         return stop(NEARFIT_FAULT_SPEED, "its controller turned the motors off");
@@ -311,11 +325,11 @@ class DhdDevice final : public NearfitDevice {
   }
   void stop(std::uint32_t fault, const char* words) noexcept {
     say(words);
-    exchange().stop(fault);
+    exchange_->stop(fault);
   }
   void lose(const char* words) noexcept {
     say(words);
-    exchange().lose();
+    exchange_->lose();
   }
   /// The first reason is kept until the next reset.
   void say(const char* words) noexcept {
@@ -324,6 +338,7 @@ class DhdDevice final : public NearfitDevice {
   }
 
   const DhdApi& api_;
+  const std::shared_ptr<plugin::PoseExchange> exchange_;
   char id_ = -1;
   NearfitDeviceDescription description_{};
   bool hasGripper_ = false;
@@ -336,7 +351,35 @@ class DhdDevice final : public NearfitDevice {
   std::function<std::string()> work_;   ///< Empty once it has begun.
   std::uint64_t asked_ = 0, done_ = 0;  ///< Numbers of the last work that was asked for, and done.
   std::string workProblem_;             ///< Of the work that was done last.
+  bool hasEnded_ = false;               ///< run() has closed the device.
   std::atomic<bool> hasWork_{false};
+};
+
+/// A device of Force Dimension. A thread of its own exchanges poses and forces with it, as fast as its transfers go,
+/// and is the only one that calls the SDK for this device while it runs.
+class DhdDevice final : public NearfitDevice {
+ public:
+  DhdDevice(const DhdApi& api, std::int32_t index)
+      : session_(std::make_shared<DhdSession>(api, index, sharedExchange())),
+        thread_([session = session_] { session->run(); }) {}
+  /// Nothing can end a call of the SDK that hangs: it is left behind, and its thread closes the device once it returns.
+  ~DhdDevice() override {
+    if (session_->end()) {
+      thread_.join();
+      return;
+    }
+    plugin::keepLoaded();
+    thread_.detach();
+  }
+
+  NearfitDeviceDescription details() const override { return session_->details(); }
+  void setForces(bool areOn) override { session_->setForces(areOn); }
+  void calibrate() override { session_->calibrate(); }
+  void reset() override { session_->reset(); }
+  std::string note() const override { return session_->note(); }
+
+ private:
+  const std::shared_ptr<DhdSession> session_;
   std::thread thread_;
 };
 

@@ -124,6 +124,11 @@ class InverseDevice final : public NearfitDevice {
       say("its power supply is unplugged");
       exchange().stop(NEARFIT_FAULT_SWITCHED_OFF);
     }
+    if (wasReady_ && !state_.isReady) {
+      say("the service says that it is no longer ready");
+      exchange().stop(NEARFIT_FAULT_OTHER);
+    }
+    wasReady_ = wasReady_ || state_.isReady;
     // A message without a place is no pose: in time its silence tells.
     if (!state_.isThere) return;
     NearfitDevicePose pose{};
@@ -144,7 +149,8 @@ class InverseDevice final : public NearfitDevice {
   const NearfitDeviceDescription description_;
   std::optional<ServiceLink> link_;  ///< Empty once it is broken.
   InverseState state_;
-  int absent_ = 0;  ///< Messages in a row.
+  int absent_ = 0;         ///< Messages in a row.
+  bool wasReady_ = false;  ///< Some services name no readiness, and others before it is there.
   std::atomic<bool> isCalibrated_{false}, isEnding_{false};
   std::atomic<const char*> words_{nullptr};  ///< Why it is stopped or lost; static text.
   std::thread thread_;

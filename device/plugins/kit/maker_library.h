@@ -21,6 +21,14 @@ class DriverMissing : public PluginError {
   using PluginError::PluginError;
 };
 
+/// Keeps this plug-in loaded until the program ends: for a thread of its own that is left behind.
+inline void keepLoaded() noexcept {
+  static const char inside = 0;
+  Dl_info here{};
+  // One more use of the library, which nobody gives back.
+  if (::dladdr(&inside, &here) != 0) ::dlopen(here.dli_fname, RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD);
+}
+
 /// A maker's library, found by the system's loader at run time. Stays loaded until the program ends: such libraries
 /// have threads of their own.
 class MakerLibrary {

@@ -25,14 +25,17 @@ struct NearfitDevice {
   /// Any thread: why it is stopped or what it waits for; may be empty.
   virtual std::string note() const = 0;
 
-  nearfit::plugin::PoseExchange& exchange() noexcept { return exchange_; }
-  const nearfit::plugin::PoseExchange& exchange() const noexcept { return exchange_; }
+  nearfit::plugin::PoseExchange& exchange() noexcept { return *exchange_; }
+  const nearfit::plugin::PoseExchange& exchange() const noexcept { return *exchange_; }
 
  protected:
   NearfitDevice() = default;
+  /// For a thread that may outlive the device.
+  const std::shared_ptr<nearfit::plugin::PoseExchange>& sharedExchange() const noexcept { return exchange_; }
 
  private:
-  nearfit::plugin::PoseExchange exchange_;
+  const std::shared_ptr<nearfit::plugin::PoseExchange> exchange_ =
+      std::make_shared<nearfit::plugin::PoseExchange>();
 };
 
 namespace nearfit::plugin {

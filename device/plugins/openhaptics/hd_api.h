@@ -9,6 +9,7 @@
 /// Functions, their meaning, units and errors: OpenHaptics Toolkit, API Reference Guide (device, calibration and scheduler
 /// routines). Values of the constants: ManagedPhantom, an open binding for C# (MIT, Kirurobo 2013), whose names are those
 /// of the guide. HD_CURRENT_TORQUE is not in it; two open bindings differ, and 0x2701, which nothing else has, is taken.
+/// OpenHaptics 3.0 deprecates it in favour of torques of joints and gimbal.
 namespace nearfit::openhaptics {
 
 using HdHandle = std::uint32_t;           // HHD
@@ -34,7 +35,8 @@ constexpr HdEnum kCurrentButtons = 0x2000, kCurrentVelocity = 0x2051, kCurrentTr
 constexpr HdEnum kVersion = 0x2500, kDeviceModelType = 0x2501, kDeviceDriverVersion = 0x2502,
                  kDeviceSerialNumber = 0x2504;
 constexpr HdEnum kInputDof = 0x2553, kOutputDof = 0x2554, kCalibrationStyle = 0x2555;
-constexpr HdEnum kUpdateRate = 0x2600, kNominalMaxStiffness = 0x2602, kNominalMaxForce = 0x2603;
+constexpr HdEnum kUpdateRate = 0x2600, kNominalMaxStiffness = 0x2602, kNominalMaxForce = 0x2603,
+                 kSoftwareVelocityLimit = 0x2606;
 constexpr HdEnum kNominalMaxTorque = 0x2622;  // HD_NOMINAL_MAX_TORQUE_FORCE
 constexpr HdEnum kCurrentForce = 0x2700, kCurrentTorque = 0x2701;
 constexpr HdEnum kForceOutput = 0x4000;

@@ -198,6 +198,8 @@ class HdDevice final : public NearfitDevice {
     description_.force_axes = integerOr(hd::kOutputDof, 3) >= 6 ? 6 : 3;
     description_.rate = integerOr(hd::kUpdateRate, static_cast<int>(kUsualRate));
     description_.max_force = realOr(hd::kNominalMaxForce, kTouchForce);
+    // Above it the driver turns forces off; 0 lets Nearfit's own limit stand.
+    description_.max_speed = kMetre * realOr(hd::kSoftwareVelocityLimit, 0.0);
     const double stiffness = realOr(hd::kNominalMaxStiffness, kTouchStiffness * kMetre) / kMetre;
     description_.damping = plugin::dampingFromStiffness(stiffness, description_.rate);
     style_ = static_cast<HdEnum>(integerOr(hd::kCalibrationStyle, static_cast<int>(hd::kCalibrationAuto)));
