@@ -109,7 +109,7 @@ void addReportCommand(CLI::App& program) {
                    "Find pairs no farther apart [m, or with a unit]; default: the scene's cutoff")
       ->type_name("D");
   command
-      ->add_option("--pictures", options.pictures, "Findings to show in pictures, the worst first; 0: each")
+      ->add_option("--pictures", options->pictures, "Findings to show in pictures, the worst first; 0: each")
       ->capture_default_str()
       ->type_name("N");
   command->add_option("--author", options->author, "Who made the report; default: the user's name here")
