@@ -301,8 +301,8 @@ std::string igesOfPoints(int count) {
 
 TEST(ImportFormats, ProgressGrowsWhileIgesIsRead) {
   const TemporaryFolder folder;
-  const std::vector<double> told = toldBelow(kReadEnd, folder.write("points.igs", igesOfPoints(20'000)));
-  // Reading takes some tenths of a second of processor time, of which each is told.
+  const std::vector<double> told = toldBelow(kReadEnd, folder.write("points.igs", igesOfPoints(100'000)));
+  // Reading takes seconds of processor time; a tenth of one is told.
   EXPECT_FALSE(told.empty());
 }
 
