@@ -11,6 +11,8 @@
 namespace nearfit::ui {
 namespace {
 
+/// Of what may not be, as letters: colours::kOverlap is too light for them on white.
+const QColor kForbiddenText(0xc8, 0x37, 0x2d);
 const QString kNoValue = QStringLiteral("–");
 
 QString partNameIn(const Scene& scene, PartId id) {
@@ -298,7 +300,7 @@ QVariant PairFindingsModel::sortKeyOf(const ShownFinding& row, int column) {
 QVariant PairFindingsModel::colourOf(const ShownFinding& row, int column) const {
   if (isStale_) return themed(colours::kMutedText);
   if (column != Verdict || row.verdict == PairVerdict::Clear || !row.rule.isEmpty()) return {};
-  return themed(row.isForbidden ? colours::kOverlap : colours::kWarning);
+  return themed(row.isForbidden ? kForbiddenText : colours::kWarning);
 }
 
 QVariant PairFindingsModel::data(const QModelIndex& index, int role) const {

@@ -188,6 +188,9 @@ void DesktopPathTest::aFreePathIsCertifiedAndTheCertificateIsProvenAnew() {
   f.certify();
   QVERIFY2(f.d.text("timelineResult").startsWith(QStringLiteral("Certified: from 0.000 s to 1.000 s")),
            qPrintable(f.d.text("timelineResult")));
+  // As the dialog offers it; it was said to be 0.034 µm.
+  QVERIFY2(f.d.text("timelineResult").contains(QStringLiteral("keeps 0.000034 mm from")),
+           qPrintable(f.d.text("timelineResult")));
   keepPictures(f.d.window(), QStringLiteral("path-certified"));
   const auto file = f.d.folder.path() / "in.nfcert";
   DialogAnswers answers;

@@ -1,6 +1,8 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
+#include <QHeaderView>
+#include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QTableView>
@@ -78,6 +80,7 @@ class DesktopSceneCheckTest : public QObject {
  private slots:
   void theTableSaysWhichPairsClashAndWhichAreNear();
   void namesAreShownWhole();
+  void theNoteAndTheStatesNeedNoScrolling();
   void aRowHighlightsItsPairAndMarksThePlace();
   void aPairIsShownUntilTheNextSelectionOrEscape();
   void returnGoesToThePlace();
@@ -144,6 +147,19 @@ void DesktopSceneCheckTest::namesAreShownWhole() {
   for (const int column : {PairFindingsModel::First, PairFindingsModel::Second, PairFindingsModel::Verdict})
     QVERIFY(f.table->columnWidth(column) <= widths[static_cast<std::size_t>(column)]);
   QVERIFY(areWhole());
+}
+
+/// The note was squeezed beside five buttons, and the states were behind a scroll bar.
+void DesktopSceneCheckTest::theNoteAndTheStatesNeedNoScrolling() {
+  SceneCheckFixture f;
+  f.check();
+  f.clickRow(0);
+  auto* note = f.d.widget<QLabel>("sceneCheckNote");
+  QTRY_COMPARE(note->width(), f.table->width());
+  QVERIFY(note->heightForWidth(note->width()) < 2 * note->fontMetrics().lineSpacing());
+  const int end = f.table->horizontalHeader()->sectionPosition(PairFindingsModel::State) +
+                  f.table->columnWidth(PairFindingsModel::State);
+  QVERIFY2(end <= f.table->viewport()->width(), qPrintable(QString::number(end)));
 }
 
 void DesktopSceneCheckTest::aRowHighlightsItsPairAndMarksThePlace() {

@@ -1,9 +1,13 @@
 #include "ui/model/pair_findings_model.h"
 
+#include <QApplication>
+#include <QColor>
+#include <QPalette>
 #include <QtTest>
 
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
+#include "tests/support/qt/contrast.h"
 #include "tests/support/qt/qt_suite.h"
 #include "ui/widgets/length_unit.h"
 #include "ui/widgets/theme.h"
@@ -59,6 +63,7 @@ class PairFindingsModelTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void verdictsAreReadableInBothThemes();
   void eachRowSaysWhatIsKnownOfAPair();
   void theWorstComeFirst();
   void whatIsGoneStaysInTheTableAsFixed();
@@ -69,6 +74,25 @@ class PairFindingsModelTest : public QObject {
   void theSceneKeepsRowsOfItsLastCheck();
   void volumesAreInTheUnitThatIsChosen();
 };
+
+/// That of a clash had a contrast of 4.3 with white.
+void PairFindingsModelTest::verdictsAreReadableInBothThemes() {
+  const Found found;
+  for (const auto scheme : {ui::ColourScheme::Light, ui::ColourScheme::Dark}) {
+    ui::setColourScheme(scheme);
+    const QPalette palette = QApplication::palette();
+    for (const int row : {0, 1}) {
+      const auto shown =
+          found.model.index(row, PairFindingsModel::Verdict).data(Qt::ForegroundRole).value<QColor>();
+      QVERIFY(shown.isValid());
+      for (const auto ground : {QPalette::Base, QPalette::AlternateBase}) {
+        const double contrast = test::contrast(shown, palette.color(ground));
+        QVERIFY2(contrast >= 4.5, qPrintable(QStringLiteral("%1: %2").arg(shown.name()).arg(contrast)));
+      }
+    }
+  }
+  ui::setColourScheme(ui::ColourScheme::Light);
+}
 
 void PairFindingsModelTest::eachRowSaysWhatIsKnownOfAPair() {
   const Found f;
@@ -151,7 +175,7 @@ void PairFindingsModelTest::rowsOfAnOldCheckAreGrey() {
   const auto colour = [&f](int column) {
     return f.model.index(0, column).data(Qt::ForegroundRole).value<QColor>();
   };
-  QCOMPARE(colour(PairFindingsModel::Verdict), ui::themed(ui::colours::kOverlap));
+  QCOMPARE(colour(PairFindingsModel::Verdict), ui::themed(QColor(0xc8, 0x37, 0x2d)));
   f.model.setStale(true);
   for (int column = 0; column < PairFindingsModel::ColumnCount; ++column)
     QCOMPARE(colour(column), ui::themed(ui::colours::kMutedText));

@@ -21,6 +21,7 @@
 #include "ui/panels/replay/replay.h"
 #include "ui/panels/replay/timeline.h"
 #include "ui/widgets/format.h"
+#include "ui/widgets/length_unit.h"
 #include "ui/widgets/make_action.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/paths.h"
@@ -68,6 +69,12 @@ QString partName(const Scene& scene, PartId id) {
   return shortName(scene.get(id).name);
 }
 
+/// In the unit that the dialog asks for it in, also where others are shorter: "0.000034 mm".
+QString separationText(double metres) {
+  const LengthUnit unit = shownLengthUnit();
+  return formatNumber(metres / metresOf(unit)) + QChar(' ') + symbolOf(unit);
+}
+
 QString unprovenText(const Scene& scene, const UnprovenPlace& place, double separation, double startTime) {
   const QString part = partName(scene, place.part), other = partName(scene, place.other);
   if (place.isInside)
@@ -75,7 +82,7 @@ QString unprovenText(const Scene& scene, const UnprovenPlace& place, double sepa
         .arg(part, other);
   return PathCommands::tr("Not certified: at %1 s “%2” and “%3” are %4 apart, which does not prove %5.")
       .arg(formatFixed(place.time - startTime, 3), part, other, formatLength(place.distance),
-           formatRoundLength(separation));
+           separationText(separation));
 }
 
 }  // namespace
@@ -310,7 +317,7 @@ void PathCommands::showCertified() {
         tr("Certified: from %1 s to %2 s the part keeps %3 from all other visible parts, everywhere on the "
            "path.")
             .arg(formatFixed(poses.front().time - start, 3), formatFixed(poses.back().time - start, 3),
-                 formatRoundLength(proof.separation)));
+                 separationText(proof.separation)));
     return;
   }
   const double time = proof.unproven->time - start;

@@ -84,12 +84,23 @@ TrackCurves trackCurves(std::span<const MotionRow> rows, const QRectF& plot) {
     if (hasDistance)
       (row.isDistanceBound ? atLeast : exact)
           .add(pointOf(row.time, curves.maxDistance > 0.0 ? row.distance / curves.maxDistance : 0.0));
-    minima.add(pointOf(row.time, curves.maxMinima > 0 ? 1.0 * row.lmds / curves.maxMinima : 0.0));
+    if (curves.maxMinima > 0) minima.add(pointOf(row.time, 1.0 * row.lmds / curves.maxMinima));
   }
   curves.exact = exact.take();
   curves.atLeast = atLeast.take();
   curves.minima = minima.take();
   return curves;
+}
+
+std::vector<std::pair<QColor, QString>> trackNames(const TrackCurves& curves) {
+  std::vector<std::pair<QColor, QString>> names;
+  if (!curves.exact.empty()) names.emplace_back(colours::kClearance, TimelineTrack::tr("Min distance"));
+  if (!curves.atLeast.empty())
+    names.emplace_back(colours::kAtLeast, TimelineTrack::tr("Min distance, at least"));
+  if (!curves.minima.empty())
+    names.emplace_back(colours::kMutedText,
+                       TimelineTrack::tr("Local minima, up to %1").arg(curves.maxMinima));
+  return names;
 }
 
 TimelineTrack::TimelineTrack(QWidget* parent) : QWidget(parent) {
@@ -205,7 +216,7 @@ void TimelineTrack::paintAxis(QPainter& painter) const {
 void TimelineTrack::paintNames(QPainter& painter) const {
   const double left = right_ + kBesidePlot, text = left + kSwatch + kBesidePlot;
   double y = kAbove;
-  const auto add = [&](const QColor& colour, const QString& name) {
+  for (const auto& [colour, name] : trackNames(curves_)) {
     const QRectF line(text, y, width() - text, fontMetrics().lineSpacing());
     painter.setPen(QPen(themed(colour), 2.0));
     painter.drawLine(QPointF(left, line.center().y()), QPointF(left + kSwatch, line.center().y()));
@@ -213,10 +224,7 @@ void TimelineTrack::paintNames(QPainter& painter) const {
     painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
                      fontMetrics().elidedText(name, Qt::ElideRight, static_cast<int>(line.width())));
     y += line.height();
-  };
-  add(colours::kClearance, tr("Min distance"));
-  if (!curves_.atLeast.empty()) add(colours::kAtLeast, tr("Min distance, at least"));
-  add(colours::kMutedText, tr("Local minima, up to %1").arg(curves_.maxMinima));
+  }
 }
 
 }  // namespace nearfit::ui

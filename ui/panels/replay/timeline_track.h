@@ -1,12 +1,15 @@
 #pragma once
 
+#include <QColor>
 #include <QPolygonF>
 #include <QRectF>
+#include <QString>
 #include <QWidget>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/servo/motion_recording.h"
@@ -21,7 +24,7 @@ struct TrackCurves {
   /// Min distance: where it is exact, and where only a lower bound is known. Broken where nothing is within the
   /// cutoff, and where one becomes the other.
   std::vector<QPolygonF> exact, atLeast;
-  std::vector<QPolygonF> minima;  ///< Number of minima.
+  std::vector<QPolygonF> minima;  ///< Number of minima; none if it is always 0.
   double maxDistance = 0.0;       ///< At the top of the plot [m]; 0 if there is no distance.
   std::uint32_t maxMinima = 0;    ///< At the top of the plot.
 };
@@ -30,6 +33,9 @@ struct TrackCurves {
 /// @param rows  Times begin at 0 and never decrease.
 /// @param plot  Where they are drawn: from the first row at the left to the last at the right, 0 at the bottom.
 TrackCurves trackCurves(std::span<const MotionRow> rows, const QRectF& plot);
+
+/// Returns the names of the curves that there are, each with its colour in the light theme, from top to bottom.
+std::vector<std::pair<QColor, QString>> trackNames(const TrackCurves& curves);
 
 /// Draws the curves of a recording below the scale of a timeline, with the time that is shown. A press goes there.
 class TimelineTrack : public QWidget {

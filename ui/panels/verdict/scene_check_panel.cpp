@@ -206,6 +206,8 @@ void SceneCheckPanel::setUpTable() {
   QHeaderView* header = table_->horizontalHeader();
   header->setMinimumSectionSize(forFont(*table_, 60));
   header->setHighlightSections(false);
+  // What is left to judge is seen beside the verdict, also where the numbers need a scroll bar.
+  header->moveSection(PairFindingsModel::State, PairFindingsModel::Distance);
   const ColumnWidths::Column names{forFont(*table_, kMaxNameWidth), true},
       words{forFont(*table_, kMaxWordsWidth), false};
   std::vector<ColumnWidths::Column> columns(PairFindingsModel::ColumnCount, words);
@@ -292,7 +294,7 @@ void SceneCheckPanel::setUpLayout() {
   filters->addWidget(changed_);
   filters->addWidget(states_);
   auto* buttons = new QHBoxLayout;
-  buttons->addWidget(note_, 1);
+  buttons->addStretch(1);
   for (QPushButton* each : {accept_, fixed_, reopen_, ruleForPair_, export_})
     buttons->addWidget(each);
   auto* column = new QVBoxLayout(this);
@@ -302,6 +304,8 @@ void SceneCheckPanel::setUpLayout() {
   column->addLayout(filters);
   column->addWidget(table_, 1);
   column->addLayout(buttons);
+  // Beside the buttons it would wrap to several lines.
+  column->addWidget(note_);
 }
 
 void SceneCheckPanel::connectRun() {

@@ -49,6 +49,7 @@ class TimelineTrackTest : public QObject {
   void aLineIsBrokenWhereNothingIsWithinTheCutoff();
   void aDipOfOneTickIsNotLost();
   void minimaAreCountedOnAScaleOfTheirOwn();
+  void curvesWithoutDataHaveNoName();
   void degenerateRecordingsStayInThePlot();
   void aPressGoesToItsTime();
 };
@@ -115,6 +116,22 @@ void TimelineTrackTest::minimaAreCountedOnAScaleOfTheirOwn() {
   QVERIFY(isNear(curves.minima[0][0], 100.0, 60.0));
   QVERIFY(isNear(curves.minima[0][1], 300.0, 10.0));
   QVERIFY(isNear(curves.minima[0][2], 500.0, 47.5));
+}
+
+// A path whose clearance was not plotted yet had "Local minima, up to 0".
+void TimelineTrackTest::curvesWithoutDataHaveNoName() {
+  const auto namesOf = [](const std::vector<MotionRow>& rows) {
+    QStringList names;
+    for (const auto& [colour, name] : ui::trackNames(ui::trackCurves(rows, kPlot)))
+      names << name;
+    return names;
+  };
+  const QString exact = QStringLiteral("Min distance"), atLeast = QStringLiteral("Min distance, at least"),
+                minima = QStringLiteral("Local minima, up to 3");
+  QCOMPARE(namesOf({rowAt(0.0, kInfinity, 0), rowAt(1.0, kInfinity, 0)}), QStringList());
+  QCOMPARE(namesOf({rowAt(0.0, 0.004, 0), rowAt(1.0, 0.002, 0)}), QStringList{exact});
+  QCOMPARE(namesOf({rowAt(0.0, 0.004, 0, true), rowAt(1.0, 0.002, 3, true)}), (QStringList{atLeast, minima}));
+  QCOMPARE(namesOf({rowAt(0.0, 0.004), rowAt(1.0, 0.002, 3, true)}), (QStringList{exact, atLeast, minima}));
 }
 
 void TimelineTrackTest::degenerateRecordingsStayInThePlot() {
