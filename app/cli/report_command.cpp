@@ -111,6 +111,7 @@ void addReportCommand(CLI::App& program) {
   command
       ->add_option("--pictures", options->pictures, "Findings to show in pictures, the worst first; 0: each")
       ->capture_default_str()
+      ->check(CLI::NonNegativeNumber)
       ->type_name("N");
   command->add_option("--author", options->author, "Who made the report; default: the user's name here")
       ->type_name("NAME");

@@ -76,6 +76,7 @@ void addSceneCheckOptions(CLI::App& command, CLI::Option& all,
   command
       .add_option("--minima", options->minima,
                   "With --all: minima to keep of a pair, the nearest; 0: all; default: 100")
+      ->check(CLI::NonNegativeNumber)
       ->type_name("N")
       ->needs(&all);
   addRuleOptions(command, options->rules, &all, "With --all: ");

@@ -89,8 +89,8 @@ void DesktopReportTest::asManyFindingsHavePicturesAsAreTyped() {
   d.addCubes();
   const PartId third = d.session().duplicatePart(d.partId("moving"));
   d.session().movePart(third, {{1, 0, 0, 0}, {0, 0, 0.025}});
-  const auto report = d.folder.path() / "cubes.html";
   const auto pictured = [&](const QString& typed) {
+    const auto report = d.folder.path() / ("cubes" + typed.toStdString() + ".html");
     d.window().statusBar()->clearMessage();
     whenModal<ui::ReportDialog>([typed](ui::ReportDialog* dialog) {
       auto* field = dialog->findChild<QSpinBox*>(QStringLiteral("reportPictures"));
