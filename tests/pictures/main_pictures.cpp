@@ -463,7 +463,9 @@ class Pictures {
     driver_.session().movePart(driver_.partId("Sensor"), {{1, 0, 0, 0}, {0.0, -0.05, -0.03}});
     trigger("fit");
     const auto wantDrawn = [](QDialog& dialog) {
-      QTest::mouseClick(dialog.findChild<QRadioButton*>(QStringLiteral("suggestToDrawn")), Qt::LeftButton);
+      // A click beside its text chooses nothing.
+      auto* drawn = dialog.findChild<QRadioButton*>(QStringLiteral("suggestToDrawn"));
+      QTest::mouseClick(drawn, Qt::LeftButton, {}, QPoint(10, drawn->height() / 2));
     };
     grabDialog(QStringLiteral("suggest"), [this] { trigger("suggestPath"); }, wantDrawn);
     DialogAnswers answers;
