@@ -1,6 +1,7 @@
 #include "app/cli/place_run.h"
 
 #include <chrono>
+#include <cstddef>
 #include <limits>
 #include <thread>
 #include <utility>
@@ -74,12 +75,14 @@ class RecordedServo {
   MotionQueue* rows() noexcept { return rows_.get(); }
   void waitAndTake() {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    takeRows();
+    // Where rows come faster than they are written, taking all of them would have no end, and the run with it.
+    constexpr std::size_t kRowsAtOnce = 1000;
+    takeRows(kRowsAtOnce);
   }
   /// Stops the servo and takes the rows that are left.
   void finish() {
     loop_.stop();
-    takeRows();
+    takeRows(std::numeric_limits<std::size_t>::max());
     result_.lostRows = rows_->dropped();
     if (loop_.pollSnapshot()) takeLast(loop_.snapshot(), result_);
     const ServoStatistics statistics = loop_.statistics();
@@ -93,8 +96,9 @@ class RecordedServo {
   }
 
  private:
-  void takeRows() {
-    for (MotionRow row; rows_->pop(row);)
+  void takeRows(std::size_t atMost) {
+    MotionRow row;
+    for (std::size_t taken = 0; taken < atMost && rows_->pop(row); ++taken)
       take(row, result_, writer_);
   }
 
