@@ -202,7 +202,7 @@ void calibrateFirst(TickedDevice& ticked, Steps& steps, const DeviceTestOptions&
     steps.add(waitForCalibration(ticked, options.isJson));
 }
 
-/// What is known before any force.
+/// The outcome of the steps before any force.
 struct BeforeForces {
   double noise = 0.0;    ///< Of the pose at rest, rms [m].
   std::string obstacle;  ///< Why there must be no force; empty if there may be.

@@ -2,7 +2,6 @@
 
 #include <exception>
 #include <filesystem>
-#include <numbers>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
@@ -13,11 +12,6 @@
 #include "core/scene/document_load.h"
 
 namespace nearfit::cli {
-namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-
-}  // namespace
 
 void addTessellationOptions(CLI::App& command, TessellationOptions& options) {
   command
@@ -34,13 +28,7 @@ void addTessellationOptions(CLI::App& command, TessellationOptions& options) {
 }
 
 Tessellation tessellationOf(const TessellationOptions& options) {
-  const Tessellation tessellation{options.chord, kRadiansPerDegree * options.angleDegrees};
-  try {
-    checkTessellation(tessellation);
-  } catch (const UsageError& error) {
-    throw UsageError("--" + error.where(), error.problem(), error.remedy());
-  }
-  return tessellation;
+  return tessellationOfOptions(options.chord, options.angleDegrees);
 }
 
 FileArgument fileArgumentOf(const std::string& text) {

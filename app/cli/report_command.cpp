@@ -12,6 +12,7 @@
 #include "app/cli/interrupt.h"
 #include "app/cli/output.h"
 #include "app/cli/progress_line.h"
+#include "app/cli/scene_part.h"
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/files/sha256.h"
@@ -42,16 +43,10 @@ constexpr const char* kReportFooter =
 
 /// Throws UsageError if the report would replace an input.
 void checkReportTarget(const ReportOptions& options, const Scene& scene) {
-  std::vector<std::filesystem::path> inputs{options.scene};
+  std::vector<std::filesystem::path> inputs = partFiles(scene);
+  inputs.emplace_back(options.scene);
   for (const std::string& file : {options.path, options.certificate}) {
     if (!file.empty()) inputs.emplace_back(file);
-  }
-  for (const Scene::PartPtr& part : scene.parts()) {
-    if (!part->geometry) continue;
-    inputs.push_back(part->geometry->file);
-    if (!part->geometry->companions) continue;
-    for (const CompanionFile& companion : *part->geometry->companions)
-      inputs.push_back(companion.file);
   }
   checkTarget(options.out, inputs);
 }

@@ -12,6 +12,7 @@
 
 #include "app/cli/output.h"
 #include "app/cli/rule_options.h"
+#include "app/cli/scene_part.h"
 #include "core/base/error.h"
 #include "core/scene/scene_file.h"
 #include "core/text/utf8.h"
@@ -32,11 +33,6 @@ struct GivenState {
   FindingState state = FindingState::New;
   std::string reason;
 };
-
-bool isNameOfPart(const Scene& scene, const std::string& pattern) {
-  return std::ranges::any_of(
-      scene.parts(), [&pattern](const Scene::PartPtr& part) { return matchesPattern(pattern, part->name); });
-}
 
 /// The findings of parts with these names, in either order. Throws UsageError if there is none.
 std::vector<PartPair> findingsOf(const Scene& scene, const std::string& option, const NamePair& names) {

@@ -19,7 +19,10 @@ GroupId namedGroup(const Scene& scene, const std::string& name, const std::strin
 Scene withInHand(Scene scene, const std::string& part, const std::string& group,
                  const std::string& sceneFile);
 
-/// The files that the parts were read from: no output may replace one.
+/// True if the name of a part matches the pattern.
+bool isNameOfPart(const Scene& scene, const std::string& pattern);
+
+/// The files that the parts were read from, with those that these name: no output may replace one.
 std::vector<std::filesystem::path> partFiles(const Scene& scene);
 
 }  // namespace nearfit::cli

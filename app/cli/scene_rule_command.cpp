@@ -12,6 +12,7 @@
 
 #include "app/cli/output.h"
 #include "app/cli/rule_options.h"
+#include "app/cli/scene_part.h"
 #include "core/base/error.h"
 #include "core/scene/scene_file.h"
 
@@ -41,12 +42,7 @@ void removeRules(std::vector<PairRule>& rules, std::vector<std::size_t> numbers)
 
 /// True if parts of the scene have both names of the rule; a pattern may be meant for parts that are yet to come.
 bool isForPartsOf(const Scene& scene, const PairRule& rule) {
-  const auto isNamed = [&scene](const std::string& pattern) {
-    return std::ranges::any_of(scene.parts(), [&pattern](const Scene::PartPtr& part) {
-      return matchesPattern(pattern, part->name);
-    });
-  };
-  return isNamed(rule.part) && isNamed(rule.other);
+  return isNameOfPart(scene, rule.part) && isNameOfPart(scene, rule.other);
 }
 
 void printRules(const Scene& scene, bool isJson) {

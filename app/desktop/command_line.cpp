@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <numbers>
 
 #include <CLI/CLI.hpp>
 
@@ -24,17 +23,6 @@ int failUsage(const char* problem) {
 
 bool isPng(const std::filesystem::path& file) {
   return ui::fromPath(file.extension()).compare(QStringLiteral(".png"), Qt::CaseInsensitive) == 0;
-}
-
-/// Throws UsageError, naming the option, if a tolerance is out of range.
-Tessellation givenTessellation(double chord, double angleDegrees) {
-  const Tessellation tessellation{chord, angleDegrees * std::numbers::pi / 180.0};
-  try {
-    checkTessellation(tessellation);
-  } catch (const UsageError& error) {
-    throw UsageError("--" + error.where(), error.problem(), error.remedy());
-  }
-  return tessellation;
 }
 
 }  // namespace
@@ -105,7 +93,7 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
     if (!hand->empty()) options.device = device;
     if (!unitOption->empty()) options.metresPerUnit = parseMeshUnit(unit, "--unit");
     if (!chordOption->empty() || !angleOption->empty() || options.isUnattended())
-      options.tessellation = givenTessellation(chord, angle);
+      options.tessellation = tessellationOfOptions(chord, angle);
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& error) {

@@ -14,8 +14,8 @@ namespace nearfit::desktop {
 struct Options {
   std::vector<std::string> files;       ///< Meshes, documents, folders, and at most one scene.
   std::optional<double> metresPerUnit;  ///< Of files that store none; std::nullopt: the window asks.
-  /// Of documents; std::nullopt: as it was chosen in the window. An unattended run always has one: what it shows does not
-  /// depend on that.
+  /// Tessellation of documents; std::nullopt: as the user chose it in the window. An unattended run always sets it, so
+  /// that its picture does not depend on that choice.
   std::optional<Tessellation> tessellation;
   bool isDemo = false;                ///< Opens the demo scene.
   std::string screenshot;             ///< File for a picture of the window; empty: a normal run.

@@ -51,8 +51,7 @@ namespace {
 /// OpenCASCADE's tolerances suit millimetres, which it converts lengths of STEP and IGES to by default.
 constexpr double kMetresPerMillimetre = 1e-3;
 
-/// What OpenCASCADE takes to parse a STEP file, as a fraction of the whole reading stage; in the rest it builds
-/// entities. Measured on files of 2 and 16 MB.
+/// Fraction of the reading stage in which OpenCASCADE parses a STEP file; in the rest it builds entities. Measured on files of 2 and 16 MB.
 constexpr double kParsedFraction = 0.65;
 
 /// Bytes in memory as an input stream, without a copy; it gives them piece by piece, to tell how far they are read.

@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPackage = "package://";
 /// Folders above the package that are searched for others.
 constexpr int kMaxAncestors = 4;
-/// Of a URDF file that is searched for its meshes: large robots take a megabyte [bytes].
+/// Max size of a URDF file that is searched for its meshes [bytes]: large robots take a megabyte.
 constexpr std::uint64_t kMaxSearchedUrdf = std::uint64_t{16} << 20;
-/// Of a companion's name as XML writes it: each character may be an entity of six.
+/// Max length of a companion's name in XML [bytes]: each character may be an entity of six.
 constexpr std::size_t kMaxWrittenName = 6 * kMaxCompanionNameBytes;
 constexpr std::string_view kXmlSpaces = " \t\r\n";
 
@@ -88,7 +88,7 @@ std::vector<char> searchableText(const fs::path& file) {
 }
 
 std::string withoutEntities(std::string text) {
-  // The ampersand last: what it was written for is no entity.
+  // The ampersand last: "&amp;lt;" stands for "&lt;", not for "<".
   constexpr std::array<std::pair<std::string_view, char>, 5> kEntities{
       {{"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}, {"&amp;", '&'}}};
   for (const auto& [entity, character] : kEntities)

@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <new>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -521,6 +522,16 @@ void checkTessellation(const Tessellation& tessellation) {
         "angle", fmt::format("{} rad is out of range", angle),
         fmt::format("give a value from {} to {} rad, or 0 for the default", kMinFacetAngle, kMaxFacetAngle));
   }
+}
+
+Tessellation tessellationOfOptions(double chord, double angleDegrees) {
+  const Tessellation tessellation{chord, angleDegrees * std::numbers::pi / 180.0};
+  try {
+    checkTessellation(tessellation);
+  } catch (const UsageError& error) {
+    throw UsageError("--" + error.where(), error.problem(), error.remedy());
+  }
+  return tessellation;
 }
 
 bool storesUnit(const fs::path& file) {

@@ -20,6 +20,10 @@ constexpr double kMinChord = 1e-7, kMaxChord = 1e4, kMinFacetAngle = 0.0087, kMa
 /// Throws UsageError if a tolerance is neither 0 nor within these limits.
 void checkTessellation(const Tessellation& tessellation);
 
+/// Tessellation of the options --chord [m] and --angle [degrees]. Throws UsageError, naming the option, as
+/// checkTessellation().
+Tessellation tessellationOfOptions(double chord, double angleDegrees);
+
 /// Max length of a shape's key [bytes of UTF-8].
 constexpr std::size_t kMaxShapeKeyBytes = 1000;
 

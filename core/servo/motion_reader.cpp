@@ -108,7 +108,7 @@ bool isAllowed(Kind kind, double value) {
     case Kind::Count:
       return value >= 0.0 && value <= std::numeric_limits<std::uint32_t>::max() && value == std::floor(value);
     case Kind::Grip:
-      // Of a device without a gripper it is no number.
+      // A device without a gripper has none: NaN.
       return std::isnan(value) || std::abs(value) <= kLargest;
     case Kind::Pose:
       break;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <optional>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -78,30 +77,22 @@ void checkOwner(const struct stat& status, const fs::path& file, const std::stri
 
 /// Whoever may write to a folder above can put another folder in the place of what is in it. In a sticky one, as /tmp,
 /// nobody can but the owner of what is replaced.
-/// @param folder  The file's own, which is checked by itself.
+/// @param folder  Checked by itself; those above it are checked here.
+/// @param place   Its path without links.
 void checkFoldersAbove(const fs::path& file, const Opened& folder, const fs::path& place) {
-  int below = folder.descriptor();
-  struct stat statusBelow = statusOf(folder, file);
-  std::optional<Opened> kept;
-  fs::path name = place;
-  for (;;) {
-    // By "..", not by name: no link leads past a folder.
-    Opened above(::openat(below, "..", O_PATH | O_DIRECTORY | O_CLOEXEC));
-    const struct stat status = statusOf(above, file);
-    name = name.parent_path();
-    const bool isRoot = status.st_dev == statusBelow.st_dev && status.st_ino == statusBelow.st_ino;
-    if (isRoot) return;
-    const std::string what = "the folder " + name.string() + " above it";
-    const bool isSticky = (status.st_mode & S_ISVTX) != 0 && isTrusted(statusBelow);
-    if (!isTrusted(status))
-      refuse(file, what + " belongs to another user", "have it installed by root, or copy it yourself");
-    if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0 && !isSticky)
-      refuse(file, "other users can write to " + what, "run: chmod go-w " + name.string());
-    statusBelow = status;
-    const int next = above.release();
-    kept.emplace(next);
-    below = next;
-  }
+  // By "..", not by name: no link leads past a folder.
+  const Opened above(::openat(folder.descriptor(), "..", O_PATH | O_DIRECTORY | O_CLOEXEC));
+  const struct stat status = statusOf(above, file), statusBelow = statusOf(folder, file);
+  const bool isRoot = status.st_dev == statusBelow.st_dev && status.st_ino == statusBelow.st_ino;
+  if (isRoot) return;
+  const fs::path name = place.parent_path();
+  const std::string what = "the folder " + name.string() + " above it";
+  if (!isTrusted(status))
+    refuse(file, what + " belongs to another user", "have it installed by root, or copy it yourself");
+  const bool isSticky = (status.st_mode & S_ISVTX) != 0 && isTrusted(statusBelow);
+  if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0 && !isSticky)
+    refuse(file, "other users can write to " + what, "run: chmod go-w " + name.string());
+  checkFoldersAbove(file, above, name);
 }
 
 /// Opens a plug-in's file and checks it and its folders through descriptors: names may stand for other files a

@@ -198,8 +198,8 @@ void ViewDetail::rest() {
 }
 
 void ViewDetail::complete() {
-  showAllNext();
-  if (!detail_.isFull) completeAnew();
+  if (detail_.isFull) return showAllNext();
+  completeAnew();
 }
 
 void ViewDetail::showAllNext() {

@@ -190,8 +190,7 @@ QImage ViewPicture::draw(const PictureStyle& style, Detail detail) {
 
 QImage ViewPicture::drawn(Detail detail) {
   vtkOpenGLRenderWindow& window = windowOf(view_.parts);
-  if (detail == Detail::Whole) view_.detail.completeAnew();
-  view_.detail.showAllNext();
+  detail == Detail::Whole ? view_.detail.completeAnew() : view_.detail.showAllNext();
   window.Render();
   const QSize size = this->size();
   vtkNew<vtkUnsignedCharArray> pixels;

@@ -90,8 +90,8 @@ NearfitDeviceDescription usualDescription(std::int32_t index) {
   return out;
 }
 
-/// What the thread of a device uses, and what others share with it. The thread keeps it: a call of the SDK that hangs may
-/// outlive the device.
+/// State of a device that its thread uses, alone or with others. The thread shares its ownership: a call of the SDK that
+/// hangs may outlive the device.
 class DhdSession {
  public:
   DhdSession(const DhdApi& api, std::int32_t index, std::shared_ptr<plugin::PoseExchange> exchange)
