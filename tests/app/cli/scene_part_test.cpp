@@ -1,10 +1,11 @@
+#include "app/cli/scene_part.h"
+
 #include <memory>
 #include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/cli/scene_part.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
