@@ -47,12 +47,12 @@ void HeldHand::step(const RigidTransform& wanted, const Wrench& wrench, double p
   const glm::dvec3 target = wanted.applyToPoint(centreInPart_);
   for (int i = 0; i < steps; ++i) {
     const glm::dvec3 pull =
-        limited(body_.grip * (target - centre()) - body_.gripDamping * velocity(), body_.strength);
+        limited(body_.grip * (target - centre()), body_.strength) - body_.gripDamping * velocity();
     for (glm::length_t axis = 0; axis < 3; ++axis)
       shift_[static_cast<std::size_t>(axis)].step(wrench.force[axis] + pull[axis], time);
     const glm::dvec3 turn = rotationVector(wanted.rotation * glm::conjugate(rotation_));
     const glm::dvec3 twist =
-        wrench.torque + limited(body_.gripTurn * turn - body_.gripTurnDamping * spin_, body_.turnStrength);
+        wrench.torque + limited(body_.gripTurn * turn, body_.turnStrength) - body_.gripTurnDamping * spin_;
     // As SimulatedHand, for a ball: its axes do not matter.
     const glm::dvec3 last = twist / body_.rotDamping, excess = spin_ - last;
     const double rate = body_.rotDamping / body_.inertia;

@@ -10,7 +10,7 @@
 namespace nearfit::stress {
 
 /// A hand with device: mass and damping, and a grip that draws it to where it is wanted, as far as it is
-/// strong.
+/// strong, and damps whatever it draws.
 struct HandBody {
   double mass = 0.25, damping = 1.0;              ///< [kg], [N s/m]: of the device, a light one in hand.
   double inertia = 2e-4, rotDamping = 1e-3;       ///< [kg m^2], [N m s/rad]

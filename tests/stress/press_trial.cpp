@@ -24,10 +24,15 @@ namespace nearfit::stress {
 namespace {
 
 constexpr double kWindow = 1.0;  ///< At the end [s].
-/// Springs reach so many margins: a hand that leans on a softer one goes through.
+/// Springs reach so many margins; where that is less than the lean needs the hand goes through.
 constexpr double kSpringReach = 50.0;
 /// Springs that wish for all that the device bears: what they may be set to at most, beyond any bound here [N/m].
 constexpr double kStiffSpring = 1e6;
+/// Springs do not keep a part out: a hand leans on them so lightly that those hold it which a device of 1 N s/m has at 100 Hz.
+/// There 2 b / T is 200 N/m, and the printed law of this slope at contact stores 0.8 mJ over the reach of 5 mm [N].
+constexpr double kLean = 0.15;
+/// It waits until their force has risen, lest it be through before [s].
+constexpr double kLeansAfter = 1.25 * WrenchConditioner::kRampTime;
 constexpr double kJitter = 1.0 / 3.0, kLost = 0.05;
 
 /// Of vectors, about their mean.
@@ -190,7 +195,13 @@ PressResult press(const PressScene& scene, const PressOptions& options) {
   StressServo servo(scene.scene.scene, parametersOf(scene, options), options.seed);
   servo.setArrival(Arrival::Usual);
   const RigidTransform wanted = onDevice(scene);
-  HeldHand hand({.damping = options.damping}, glm::dvec3(0.0), {});
+  const bool isOnSprings = options.mode != StressMode::Proxy;
+  HandBody body{.damping = options.damping};
+  if (isOnSprings) {
+    body.strength = kLean;
+    body.turnStrength = kLean * servoScene.metric.radius / scene.scale;
+  }
+  HeldHand hand(body, glm::dvec3(0.0), {});
   EnergyLedger ledger;
   ServoParameters atHandle = servo.parameters();
   atHandle.limits = limitsAtHandle(atHandle.limits, scene.scale);
@@ -205,7 +216,8 @@ PressResult press(const PressScene& scene, const PressOptions& options) {
       period *= 1.0 + kJitter * (2.0 * bench::uniform(random) - 1.0);
       if (bench::uniform(random) < kLost) period += options.period;
     }
-    if (!isFirst) hand.step(wanted, held, period);
+    const bool isWaiting = isOnSprings && time < kLeansAfter;
+    if (!isFirst) hand.step(isWaiting ? RigidTransform{} : wanted, held, period);
     const ServoSnapshot& s = servo.tick({.pose = hand.pose(), .hasOwnFrame = true}, period);
     held = s.deviceWrench;
     time += period;
