@@ -376,10 +376,16 @@ std::filesystem::path programOf(const HelperWork& work) {
     checkProgram(chosen, work);
     return chosen;
   }
-  const std::filesystem::path program = folderOfThisProgram() / work.program;
-  struct ::stat status{};
-  if (::stat(program.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) checkProgram(program, work);
-  return program;
+  // Where the build puts it, and where it is once it is installed, whatever the prefix is.
+  const std::filesystem::path here = folderOfThisProgram();
+  const std::array<std::filesystem::path, 2> places{here / work.program,
+                                                    here.parent_path() / "libexec/nearfit" / work.program};
+  for (const std::filesystem::path& program : places) {
+    struct ::stat status{};
+    if (::stat(program.c_str(), &status) == 0 && S_ISREG(status.st_mode)) return program;
+  }
+  checkProgram(places.front(), work);
+  return places.front();
 }
 
 /// A file in memory, without a name: nothing is left behind, whatever ends.

@@ -10,12 +10,13 @@
 
 namespace nearfit {
 
-/// The importer: nearfit-import in the folder of the running program, or the file that the environment variable
-/// NEARFIT_IMPORT names, which has to be the user's or the system's and writable by nobody else. Throws FileError.
+/// The importer: nearfit-import in the folder of the running program, else in `libexec/nearfit` beside that folder (where it is
+/// installed), or the file that the environment variable NEARFIT_IMPORT names, which has to be the user's or the system's and
+/// writable by nobody else. Throws FileError.
 std::filesystem::path importProgram();
 
-/// The exporter: nearfit-export in the folder of the running program, or the file that the environment variable
-/// NEARFIT_EXPORT names, as for importProgram(). Throws FileError.
+/// The exporter: nearfit-export in the same places, or the file that the environment variable NEARFIT_EXPORT names, as for
+/// importProgram(). Throws FileError.
 std::filesystem::path exportProgram();
 
 /// Asks the importer for its version and that of OpenCASCADE: "nearfit-import 0.1.0, OpenCASCADE 7.6.3". Takes as long as its

@@ -5,9 +5,13 @@ nearfit_packages=(
   libvtk9-qt-dev qtbase5-dev libqt5svg5-dev libopenmesh-dev libglm-dev
   libfmt-dev nlohmann-json3-dev libcli11-dev libssl-dev libxxhash-dev libmuparser-dev libgtest-dev libgmock-dev libfcl-dev
   libcgal-dev libboost-dev libompl-dev libusb-1.0-0-dev libqcustomplot-dev
-  zlib1g-dev libocct-data-exchange-dev libtbb-dev libfontconfig-dev lib3mf-dev liburdfdom-dev libseccomp-dev
+  python3 zlib1g-dev libocct-data-exchange-dev libtbb-dev libfontconfig-dev lib3mf-dev liburdfdom-dev libseccomp-dev
 )
-nearfit_test_packages=(xvfb xauth libgl1-mesa-dri umockdev libumockdev-dev python3 git)
+nearfit_test_packages=(
+  xvfb xauth libgl1-mesa-dri umockdev libumockdev-dev python3 git zsh desktop-file-utils appstream shared-mime-info man-db
+)
+# For resources/scripts/package.
+nearfit_package_packages=(dpkg-dev file lintian git)
 # For ./test --all and tests/fuzz/run: sanitizers, formatting and clang-tidy.
 nearfit_check_packages=(clang-19 libclang-rt-19-dev llvm-19 clang-format-19 clang-tidy-19)
 # For tests/usb/qemu/run alone.
