@@ -67,6 +67,11 @@ int importFile(const importer::ImportOptions& options, importer::MessagePipe& me
   importer::enterSandbox(importer::readablePaths(job));
   job.progress = [&](double fraction) { messages.progress(fraction); };
   job.endStage = [&](const char* stage) { times.end(stage); };
+  if (options.showsTimes) {
+    job.tellEarly = [](std::size_t solids, std::size_t meshed) {
+      fmt::print(stderr, "{} of {} solids meshed during the transfer\n", meshed, solids);
+    };
+  }
   times.end("open");
   const nearfit::CadDocument document = importer::readDocumentOf(job);
   times.end("mesh");

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <istream>
+#include <optional>
 #include <streambuf>
 #include <string>
 #include <utility>
@@ -16,27 +17,37 @@
 #include <Interface_Static.hxx>
 #include <Message_ProgressRange.hxx>
 #include <Message_ProgressScope.hxx>
+#include <OSD_ThreadPool.hxx>
+#include <Quantity_ColorRGBA.hxx>
 #include <RWGltf_CafReader.hxx>
 #include <RWMesh_CoordinateSystem.hxx>
+#include <RWMesh_NodeAttributes.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPControl_Reader.hxx>
 #include <StepBasic_Product.hxx>
 #include <StepRepr_NextAssemblyUsageOccurrence.hxx>
+#include <StepShape_ManifoldSolidBrep.hxx>
 #include <TCollection_AsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopoDS_Shape.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_Binder.hxx>
+#include <Transfer_TransientProcess.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XCAFDoc_VisMaterial.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <fmt/format.h>
 
 #include "app/import/companion_list.h"
+#include "app/import/early_meshes.h"
 #include "app/import/gltf_scan.h"
 #include "app/import/import_job.h"
 #include "app/import/memory_file.h"
 #include "app/import/occ_progress.h"
+#include "app/import/shape_mesher.h"
 #include "app/import/step_scan.h"
 #include "app/import/xcaf_document.h"
 #include "core/base/error.h"
@@ -96,9 +107,21 @@ Handle(TDocStd_Document) newDocument() {
                   "it may be damaged: export it again, or in another format");
 }
 
+/// OpenCASCADE's reader, and what it knows of the faces it has made.
+class GltfReader : public RWGltf_CafReader {
+ public:
+  /// Colour of the material of a face, which it places anew, by a location, for each further material.
+  std::optional<CadColour> colourOf(const TopoDS_Shape& face) const {
+    const RWMesh_NodeAttributes* attributes = myAttribMap.Seek(face);
+    if (attributes == nullptr || attributes->Style.Material().IsNull()) return std::nullopt;
+    const Handle(XCAFDoc_VisMaterial)& material = attributes->Style.Material();
+    return material->IsEmpty() ? std::nullopt : std::optional(cadColourOf(material->BaseColor().GetRGB()));
+  }
+};
+
 CadDocument readGltfByOcc(const ImportJob& job) {
   OccProgress progress(job);
-  RWGltf_CafReader reader;
+  GltfReader reader;
   const Handle(TDocStd_Document) document = newDocument();
   reader.SetDocument(document);
   // Up is z here and y there.
@@ -116,6 +139,7 @@ CadDocument readGltfByOcc(const ImportJob& job) {
   job.endStage("read");
   XcafOptions options{1.0};
   options.areTriangles = true;
+  options.colourOfFace = [&reader](const TopoDS_Shape& face) { return reader.colourOf(face); };
   return readXcaf(*document, options, job, progress);
 }
 
@@ -132,6 +156,67 @@ void keepNamesOfOtherScripts(const Interface_InterfaceModel& model) {
     const auto instance = Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(entity);
     if (!instance.IsNull()) keep(*instance);
   }
+}
+
+/// Gives the solids of a STEP file to be meshed while OpenCASCADE makes those after them. It binds each one to its
+/// entity once its healing is done; assemblies only place it from then on.
+class StepSolids {
+ public:
+  /// @param session  Kept, like the meshes, by reference.
+  StepSolids(const XSControl_WorkSession& session, EarlyMeshes& meshes)
+      : session_(session), meshes_(meshes) {}
+
+  /// Looks for solids made since the last call.
+  void look() noexcept {
+    if (hasFailed_) return;
+    try {
+      const Handle(Transfer_TransientProcess) process = session_.MapReader();
+      if (process.IsNull()) return;
+      if (unfinished_ > 0) give(*process, std::exchange(unfinished_, 0));
+      while (seen_ < process->NbMapped())
+        give(*process, ++seen_);
+    } catch (...) {
+      // Nothing is lost but time.
+      hasFailed_ = true;
+    }
+  }
+  std::size_t givenCount() const noexcept { return given_; }
+
+ private:
+  void give(const Transfer_TransientProcess& process, int number) {
+    const Handle(Standard_Transient)& entity = process.Mapped(number);
+    if (entity.IsNull() || !entity->IsKind(STANDARD_TYPE(StepShape_ManifoldSolidBrep))) return;
+    const TopoDS_Shape solid = TransferBRep::ShapeResult(process.MapItem(number));
+    if (solid.IsNull()) {
+      unfinished_ = number;
+      return;
+    }
+    ++given_;
+    meshes_.add(solid);
+  }
+
+  const XSControl_WorkSession& session_;
+  EarlyMeshes& meshes_;
+  int seen_ = 0;        ///< Items of the process looked at.
+  int unfinished_ = 0;  ///< The solid that is being made, if its entity is known already; 0: none.
+  std::size_t given_ = 0;
+  bool hasFailed_ = false;
+};
+
+MeshRequest earlyRequestOf(const ImportJob& job) {
+  MeshRequest request;
+  request.isSolid = true;
+  request.map = glm::dmat3(kMetresPerMillimetre);
+  request.wanted = job.tessellation;
+  return request;
+}
+
+/// Threads to mesh by while a document is transferred; 0 if none of its solids may be meshed before it is known.
+std::size_t earlyThreadsFor(const ImportJob& job) {
+  // Bodies that share faces are healed together once all are there.
+  const bool isManifold = Interface_Static::IVal("read.step.nonmanifold") == 0;
+  if (!isManifold || !job.onlyShapes.empty() || job.takeExact) return 0;
+  return static_cast<std::size_t>(std::max(OSD_ThreadPool::DefaultPool()->NbThreads() - 1, 0));
 }
 
 }  // namespace
@@ -165,10 +250,17 @@ CadDocument readStep(const ImportJob& job) {
   job.endStage("read");
   const Handle(TDocStd_Document) document = newDocument();
   Handle(TDocStd_Document) target = document;
-  if (!reader.Transfer(target, progress.stageTo(stageEndsOf(job).transferred))) failUnreadable(job, "STEP");
+  EarlyMeshes early(earlyRequestOf(job), earlyThreadsFor(job));
+  {
+    StepSolids solids(*reader.ChangeReader().WS(), early);
+    const OccProgress::Listening listening(progress, [&solids] { solids.look(); });
+    if (!reader.Transfer(target, progress.stageTo(stageEndsOf(job).transferred))) failUnreadable(job, "STEP");
+    if (job.tellEarly) job.tellEarly(solids.givenCount(), early.meshedCount());
+  }
   job.endStage("transfer");
   XcafOptions options{kMetresPerMillimetre};
   options.hasDirectives = true;
+  options.early = &early;
   return readXcaf(*document, options, job, progress);
 }
 

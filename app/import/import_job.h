@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -45,6 +46,9 @@ struct ImportJob {
   /// Takes the fraction done, and a name of what goes on, for times.
   std::function<void(double fraction)> progress;
   std::function<void(const char* stage)> endStage;
+  /// If it is set, takes how many solids of a STEP file were seen while it was transferred, and how many of them were
+  /// meshed by then.
+  std::function<void(std::size_t solids, std::size_t meshed)> tellEarly = {};
 
   bool wants(const std::string& key) const;
 };

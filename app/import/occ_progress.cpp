@@ -8,6 +8,7 @@
 #include <mutex>
 #include <stop_token>
 #include <thread>
+#include <utility>
 
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -45,6 +46,11 @@ class Indicator : public Message_ProgressIndicator {
     reached_ = GetPosition();
     reachedAt_ = processorTime();
     job_.progress(reached_);
+    if (onShow_) onShow_();
+  }
+  void setOnShow(std::function<void()> onShow) {
+    const std::lock_guard lock(mutex_);
+    onShow_ = std::move(onShow);
   }
   /// Reports what the processor time since the last Show() stands for, on the way to `end`.
   void tick(double end) {
@@ -56,6 +62,7 @@ class Indicator : public Message_ProgressIndicator {
  private:
   const ImportJob& job_;
   std::mutex mutex_;
+  std::function<void()> onShow_;
   double reached_ = 0.0, reachedAt_ = processorTime();
 };
 
@@ -102,6 +109,15 @@ struct OccProgress::Steady::Ticker {
 OccProgress::Steady::Steady(OccProgress& progress) : ticker_(std::make_unique<Ticker>(progress)) {}
 
 OccProgress::Steady::~Steady() = default;
+
+OccProgress::Listening::Listening(OccProgress& progress, std::function<void()> onProgress)
+    : progress_(progress) {
+  progress_.parts_->indicator->setOnShow(std::move(onProgress));
+}
+
+OccProgress::Listening::~Listening() {
+  progress_.parts_->indicator->setOnShow({});
+}
 
 StageEnds stageEndsOf(const ImportJob& job) {
   return job.tessellation.chord > 0.0 ? StageEnds{0.1, 0.2, 0.97} : StageEnds{0.25, 0.5, 0.97};

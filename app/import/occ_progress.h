@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "app/import/import_job.h"
@@ -35,6 +36,20 @@ class OccProgress {
    private:
     struct Ticker;
     std::unique_ptr<Ticker> ticker_;
+  };
+
+  /// While it exists, a function is called each time that OpenCASCADE reports progress, in the thread that does.
+  class Listening {
+   public:
+    /// @param progress  Outlives it.
+    /// @param onProgress  Must not throw.
+    Listening(OccProgress& progress, std::function<void()> onProgress);
+    ~Listening();
+    Listening(const Listening&) = delete;
+    Listening& operator=(const Listening&) = delete;
+
+   private:
+    OccProgress& progress_;
   };
 
  private:

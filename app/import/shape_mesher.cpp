@@ -592,7 +592,7 @@ class BodyMesher {
   }
 
   void takeSurfaces() {
-    bool hasColours = false;
+    std::vector<const void*> identities;
     for (const FaceMesh& face : faces_) {
       ExactSurface surface;
       try {
@@ -603,14 +603,10 @@ class BodyMesher {
       shape_.surfaces.faces.push_back(isSoundSurface(surface) ? surface : ExactSurface{});
       shape_.surfaces.faceOfTriangle.insert(shape_.surfaces.faceOfTriangle.end(), face.triangleCount,
                                             static_cast<std::uint32_t>(shape_.surfaces.faces.size() - 1));
-      shape_.faceColours.push_back(colourOf(face.face));
-      hasColours = hasColours || shape_.faceColours.back().has_value();
+      identities.push_back(face.face.TShape().get());
     }
-    if (!hasColours) shape_.faceColours.clear();
-  }
-
-  std::optional<CadColour> colourOf(const TopoDS_Face& face) const {
-    return request_.colours == nullptr ? std::nullopt : findColour(*request_.colours, face.TShape().get());
+    if (request_.colours != nullptr) colourFaces(identities, *request_.colours, shape_);
+    if (request_.faces != nullptr) *request_.faces = std::move(identities);
   }
 
   const MeshRequest& request_;
@@ -624,6 +620,17 @@ class BodyMesher {
 std::optional<CadColour> findColour(const ColourTable& colours, const void* identity) {
   const auto at = colours.find(identity);
   return at == colours.end() ? std::nullopt : std::optional(at->second);
+}
+
+void colourFaces(const std::vector<const void*>& faces, const ColourTable& colours, CadShape& shape) {
+  std::vector<std::optional<CadColour>> found;
+  found.reserve(faces.size());
+  for (const void* face : faces)
+    found.push_back(findColour(colours, face));
+  const bool hasColours =
+      std::ranges::any_of(found, [](const std::optional<CadColour>& colour) { return colour.has_value(); });
+  if (!hasColours) found.clear();
+  shape.faceColours = std::move(found);
 }
 
 CadShape meshBody(const MeshRequest& request, const Message_ProgressRange& progress) {

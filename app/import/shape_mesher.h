@@ -29,6 +29,8 @@ struct MeshRequest {
   bool hasUnit = true;  ///< False: the limits of the default tessellation, which are in metres, do not apply.
   Tessellation wanted;  ///< In the units of the shape.
   const ColourTable* colours = nullptr;
+  /// If it is set, takes the TopoDS_TShape of each of the shape's surfaces.faces, for colourFaces().
+  std::vector<const void*>* faces = nullptr;
   bool usesAllThreads = true;  ///< False: the calling one alone, beside others that mesh.
 };
 
@@ -39,6 +41,10 @@ struct MeshRequest {
 ///
 /// Writes into the faces and edges of the body meanwhile: thread-safe for bodies that share neither; see planMeshing().
 CadShape meshBody(const MeshRequest& request, const Message_ProgressRange& progress);
+
+/// Sets the colours of a shape's faces, where any has one.
+/// @param faces  MeshRequest::faces.
+void colourFaces(const std::vector<const void*>& faces, const ColourTable& colours, CadShape& shape);
 
 /// Triangles of a shape that has nothing else, as files of triangles give. Those of faces of one colour become a face of
 /// no known surface, if any has a colour.

@@ -45,6 +45,7 @@
 #include <fmt/format.h>
 #include <gp_Trsf.hxx>
 
+#include "app/import/early_meshes.h"
 #include "app/import/meshing_plan.h"
 #include "app/import/occ_progress.h"
 #include "app/import/placed_mesh.h"
@@ -93,15 +94,6 @@ std::optional<Placement> placementOf(const TopLoc_Location& location) {
   // Half a rounding of the scale must not make another variant of each shape.
   if (std::abs(std::abs(placement.scale) - 1.0) < 1e-6) placement.scale = placement.scale < 0.0 ? -1.0 : 1.0;
   return placement;
-}
-
-CadColour colourOf(const Quantity_Color& colour) {
-  std::array<double, 3> srgb{};
-  colour.Values(srgb[0], srgb[1], srgb[2], Quantity_TOC_sRGB);
-  CadColour result{};
-  for (std::size_t i = 0; i < 3; ++i)
-    result[i] = static_cast<float>(std::isfinite(srgb[i]) ? std::clamp(srgb[i], 0.0, 1.0) : 0.0);
-  return result;
 }
 
 /// Geometry within a product.
@@ -338,9 +330,9 @@ class XcafReader {
   std::optional<CadColour> colourOfLabel(const TDF_Label& label) const {
     Quantity_Color colour;
     for (const XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen})
-      if (colours_->GetColor(label, type, colour)) return colourOf(colour);
+      if (colours_->GetColor(label, type, colour)) return cadColourOf(colour);
     const Handle(XCAFDoc_VisMaterial) material = materials_->GetShapeMaterial(label);
-    if (!material.IsNull() && !material->IsEmpty()) return colourOf(material->BaseColor().GetRGB());
+    if (!material.IsNull() && !material->IsEmpty()) return cadColourOf(material->BaseColor().GetRGB());
     return std::nullopt;
   }
 
@@ -482,8 +474,20 @@ class XcafReader {
     std::vector<TopoDS_Shape> faces;
     for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next())
       faces.push_back(face.Current());
+    takeOwnColours(product, piece.whole);
     piece.colour = commonColour(product.colours, faces);
     product.pieces.push_back(std::move(piece));
+  }
+
+  /// Takes the colours of faces that several products have, each in a colour of its own or in none.
+  void takeOwnColours(Product& product, const TopoDS_Shape& shape) const {
+    if (!options_.colourOfFace) return;
+    for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) {
+      const void* identity = face.Current().TShape().get();
+      product.colours.erase(identity);
+      if (const std::optional<CadColour> colour = options_.colourOfFace(face.Current()))
+        product.colours.emplace(identity, *colour);
+    }
   }
 
   void addPieces(Product& product, const TopoDS_Shape& shape) {
@@ -531,15 +535,20 @@ class XcafReader {
       const OccProgress::Steady steady(progress_);
       Message_ProgressScope scope(range, "mesh",
                                   static_cast<double>(std::max<std::size_t>(1, wanted.size())));
+      // With their shares of the progress.
       std::vector<Message_ProgressRange> parts;
+      std::vector<std::size_t> left;
       std::vector<const Body*> bodies;
-      for (const PendingShape& pending : wanted) {
+      if (options_.early != nullptr) options_.early->finish();
+      for (std::size_t i = 0; i < wanted.size(); ++i) {
         parts.push_back(scope.Next());
-        bodies.push_back(&pending.piece->body);
+        if (takeEarly(wanted[i], meshed[i])) continue;
+        left.push_back(i);
+        bodies.push_back(&wanted[i].piece->body);
       }
       const auto meshGroup = [&](const BodyGroup& group, bool usesAllThreads) {
-        for (const std::size_t i : group)
-          mesh(wanted[i], parts[i], usesAllThreads, meshed[i]);
+        for (const std::size_t at : group)
+          mesh(wanted[left[at]], parts[left[at]], usesAllThreads, meshed[left[at]]);
       };
       const int threads = OSD_ThreadPool::DefaultPool()->NbThreads();
       const MeshingPlan plan = planMeshing(bodies, static_cast<std::size_t>(std::max(threads, 1)));
@@ -550,6 +559,17 @@ class XcafReader {
     }
     for (std::size_t i = 0; i < wanted.size(); ++i)
       keep(wanted[i], std::move(meshed[i]));
+  }
+
+  /// Takes what was meshed while the document was transferred; false if this shape was not.
+  bool takeEarly(const PendingShape& pending, MeshedShape& result) const {
+    const bool isAsMeshed = pending.piece->isSolid && pending.scale == 1.0;
+    if (options_.early == nullptr || !isAsMeshed) return false;
+    std::optional<EarlyMeshes::Mesh> mesh = options_.early->take(pending.piece->body);
+    if (!mesh) return false;
+    result.shape = std::move(mesh->shape);
+    colourFaces(mesh->faces, pending.product->colours, result.shape);
+    return true;
   }
 
   void mesh(const PendingShape& pending, const Message_ProgressRange& range, bool usesAllThreads,
@@ -632,6 +652,15 @@ class XcafReader {
 };
 
 }  // namespace
+
+CadColour cadColourOf(const Quantity_Color& colour) {
+  std::array<double, 3> srgb{};
+  colour.Values(srgb[0], srgb[1], srgb[2], Quantity_TOC_sRGB);
+  CadColour result{};
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = static_cast<float>(std::isfinite(srgb[i]) ? std::clamp(srgb[i], 0.0, 1.0) : 0.0);
+  return result;
+}
 
 CadDocument readXcaf(TDocStd_Document& document, const XcafOptions& options, const ImportJob& job,
                      OccProgress& progress) {

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cstdlib>
 #include <exception>
+#include <map>
+#include <mutex>
 #include <span>
 #include <system_error>
 
@@ -79,6 +81,34 @@ void closeDefaultFolder(const fs::path& folder) {
   std::error_code ignored;
   if (folder == userFolder(UserFiles::Cache) && !fs::is_symlink(folder, ignored))
     fs::permissions(folder, fs::perms::owner_all, ignored);
+}
+
+/// Bytes that this process may write to a folder before it lists it again: listing takes as long as the folder has files,
+/// and an assembly writes hundreds.
+struct Room {
+  std::uint64_t maxBytes = 0, bytes = 0;
+};
+/// Of what is free: several processes may fill a folder at once.
+constexpr std::uint64_t kRoomShare = 4;
+
+std::mutex roomMutex;
+std::map<fs::path, Room> roomOf;  ///< By folder; guarded by the mutex.
+
+/// True if a file of so many bytes fits, whatever else is in the folder.
+bool takeRoom(const TreeCacheSettings& settings, std::uint64_t bytes) {
+  const std::lock_guard lock(roomMutex);
+  const auto at = roomOf.find(settings.folder);
+  if (at == roomOf.end() || at->second.maxBytes != settings.maxBytes || at->second.bytes < bytes)
+    return false;
+  at->second.bytes -= bytes;
+  return true;
+}
+
+/// @param total  Bytes in the folder.
+void setRoom(const TreeCacheSettings& settings, std::uint64_t total) {
+  const std::lock_guard lock(roomMutex);
+  const std::uint64_t left = settings.maxBytes - std::min(total, settings.maxBytes);
+  roomOf[settings.folder] = {settings.maxBytes, left / kRoomShare};
 }
 
 std::string checksumLine(std::string_view text) {
@@ -224,17 +254,21 @@ bool TreeCache::keep(const fs::path& file, const std::function<bool()>& write) c
 }
 
 void TreeCache::evict(const fs::path& newest) const {
+  std::error_code unknown;
+  const std::uintmax_t written = fs::file_size(newest, unknown);
+  if (!unknown && takeRoom(settings_, written)) return;
   std::vector<Entry> entries = entriesOf(settings_.folder);
   std::uint64_t total = 0;
   for (const Entry& entry : entries)
     total += entry.bytes;
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.used < b.used; });
   for (const Entry& entry : entries) {
-    if (total <= settings_.maxBytes) return;
+    if (total <= settings_.maxBytes) break;
     if (entry.path == newest) continue;
     std::error_code failure;
     if (fs::remove(entry.path, failure)) total -= entry.bytes;
   }
+  setRoom(settings_, total);
 }
 
 TreeCache::Usage TreeCache::usage() const {

@@ -62,8 +62,8 @@ class TreeCache {
   /// there is none.
   std::optional<TreeCacheFile> find(const TreeCacheKey& key) const;
   /// Caches a mesh, with its hierarchy unless that is null, in place of what was cached for the key. Then
-  /// removes the least recently used files until the rest is within `maxBytes`. False if nothing was cached,
-  /// for whatever reason.
+  /// removes the least recently used files until the rest is within `maxBytes`; the folder is only looked through where
+  /// what this process has written since the last time may not fit. False if nothing was cached, for whatever reason.
   bool store(const TreeCacheKey& key, const CachedMesh& mesh, const CachedTree* tree) const;
 
   /// Text cached for the key, as it was stored, and marks it as just used; no value if there is none.

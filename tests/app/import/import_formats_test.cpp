@@ -1,5 +1,6 @@
 // IGES, BREP, glTF, 3MF and URDF, and files compressed by gzip.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -450,6 +451,93 @@ TEST(ImportFormats, GltfMeshHasTheColourOfItsPrimitivesOnlyIfAllHaveIt) {
   EXPECT_EQ(blue.nodes.at(0).colour, kBlueOfGltf);
   EXPECT_TRUE(blue.shapes[0].faceColours.empty());
   EXPECT_TRUE(blue.shapes[0].surfaces.faces.empty());
+}
+
+/// A .glb of two red and blue materials, and of a tetrahedron's corners (accessor 0), of which accessors 1 and 2 index two
+/// triangles each, and accessor 3 all four.
+std::string glbOfSharedCorners(const std::string& meshes, const std::string& nodes) {
+  const std::array<float, 12> corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const std::array<std::uint16_t, 12> indices{0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+  const auto raw = [](const auto& values) {
+    return std::string(reinterpret_cast<const char*>(values.data()), sizeof(values));
+  };
+  const auto number = [](std::size_t value) {
+    const auto bits = static_cast<std::uint32_t>(value);
+    std::string bytes(sizeof(bits), '\0');
+    std::memcpy(bytes.data(), &bits, sizeof(bits));
+    return bytes;
+  };
+  const std::string data = raw(corners) + raw(indices);
+  std::string text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":)" + nodes +
+                     R"(,"meshes":)" + meshes +
+                     R"(,"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}},
+{"pbrMetallicRoughness":{"baseColorFactor":[0,0,1,1]}}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},
+{"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"},
+{"bufferView":1,"byteOffset":12,"componentType":5123,"count":6,"type":"SCALAR"},
+{"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24}],
+"buffers":[{"byteLength":72}]})";
+  while (text.size() % 4 != 0)
+    text += ' ';
+  const std::string body =
+      number(text.size()) + "JSON" + text + number(data.size()) + std::string("BIN\0", 4) + data;
+  return "glTF" + number(2) + number(12 + body.size()) + body;
+}
+
+TEST(ImportFormats, GlbPrimitivesThatShareTheirCornersKeepTheirColours) {
+  const TemporaryFolder folder;
+  // One mesh of two primitives, and one of the first of them in the other colour.
+  const CadDocument document = imported(folder.write(
+      "shared.glb",
+      glbOfSharedCorners(
+          R"([{"name":"both","primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0},
+{"attributes":{"POSITION":0},"indices":2,"material":1}]},
+{"name":"half","primitives":[{"attributes":{"POSITION":0},"indices":1,"material":1}]}])",
+          R"([{"name":"both","mesh":0},{"name":"half","mesh":1}])")));
+  ASSERT_EQ(document.shapes.size(), 2U);
+  ASSERT_EQ(document.nodes.size(), 2U);
+  const CadShape& both = document.shapes[static_cast<std::size_t>(document.nodes[0].shape)];
+  EXPECT_EQ(both.faceColours, (std::vector<std::optional<CadColour>>{kRedOfGltf, kBlueOfGltf}));
+  EXPECT_THAT(both.surfaces.faceOfTriangle, testing::ElementsAre(0, 0, 1, 1));
+  EXPECT_EQ(document.nodes[1].colour, kBlueOfGltf);
+  EXPECT_EQ(document.shapes[static_cast<std::size_t>(document.nodes[1].shape)].triangles.size(), 2U);
+}
+
+TEST(ImportFormats, GlbMeshesThatShareTheirPrimitivesHaveEachItsOwnColours) {
+  const TemporaryFolder folder;
+  const auto mesh = [](const char* name, int first, int second) {
+    return fmt::format(
+        R"({{"name":"{}","primitives":[{{"attributes":{{"POSITION":0}},"indices":1,"material":{}}},
+{{"attributes":{{"POSITION":0}},"indices":2,"material":{}}}]}})",
+        name, first, second);
+  };
+  const CadDocument document = imported(folder.write(
+      "swapped.glb", glbOfSharedCorners("[" + mesh("one", 0, 1) + "," + mesh("two", 1, 0) + "]",
+                                        R"([{"name":"one","mesh":0},{"name":"two","mesh":1}])")));
+  ASSERT_EQ(document.nodes.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const CadShape& shape = document.shapes.at(static_cast<std::size_t>(document.nodes[i].shape));
+    ASSERT_EQ(shape.triangles.size(), 4U) << i;
+    ASSERT_EQ(shape.surfaces.faceOfTriangle.size(), 4U) << i;
+    for (std::size_t t = 0; t < 4; ++t) {
+      const CadColour wanted = (t < 2) == (i == 0) ? kRedOfGltf : kBlueOfGltf;
+      EXPECT_EQ(shape.faceColours.at(shape.surfaces.faceOfTriangle[t]), wanted) << i << " " << t;
+    }
+  }
+}
+
+TEST(ImportFormats, GlbMeshesThatShareAllButTheirMaterialKeepTheirColours) {
+  const TemporaryFolder folder;
+  const CadDocument document = imported(folder.write(
+      "twice.glb",
+      glbOfSharedCorners(
+          R"([{"name":"red","primitives":[{"attributes":{"POSITION":0},"indices":3,"material":0}]},
+{"name":"blue","primitives":[{"attributes":{"POSITION":0},"indices":3,"material":1}]}])",
+          R"([{"name":"red","mesh":0},{"name":"blue","mesh":1}])")));
+  ASSERT_EQ(document.nodes.size(), 2U);
+  EXPECT_EQ(document.nodes[0].colour, kRedOfGltf);
+  EXPECT_EQ(document.nodes[1].colour, kBlueOfGltf);
 }
 
 /// Writes tetrahedra.glb as text, its buffer in a file of its own.

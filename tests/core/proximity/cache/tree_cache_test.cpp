@@ -151,6 +151,32 @@ TEST(TreeCache, WhatWasNotUsedForLongestGoesFirst) {
   EXPECT_EQ(limited.usage().files, 2U);
 }
 
+TEST(TreeCache, FolderIsLookedThroughOnlyWhereWhatWasWrittenMayNotFit) {
+  const test::TemporaryFolder folder;
+  const CachedMesh mesh = test::cachedMeshOf(test::icosphereMesh(1.0, 1));
+  ASSERT_TRUE(cacheIn(folder.path()).store(key('A'), mesh, nullptr));
+  const std::uint64_t each = fs::file_size(test::onlyFileIn(folder.path()));
+  constexpr std::size_t kFiles = 40;
+  const TreeCache cache = cacheIn(folder.path(), kFiles * each);
+  ASSERT_TRUE(cache.store(key('A'), mesh, nullptr));
+  // Another process fills the folder.
+  const fs::path other =
+      folder.write(std::string(64, 'f') + ".nearfit-tree", std::string(kFiles * each, 'x'));
+  setUsed(other, std::chrono::hours(5));
+  ASSERT_TRUE(cache.store(key('B'), mesh, nullptr));
+  EXPECT_TRUE(fs::exists(other));
+  for (std::size_t i = 2; i < 12; ++i)
+    ASSERT_TRUE(cache.store(key(static_cast<char>('A' + i)), mesh, nullptr));
+  EXPECT_FALSE(fs::exists(other));
+  EXPECT_EQ(cache.usage().files, 12U);
+  // By itself, it never exceeds its size.
+  const TreeCache small = cacheIn(folder.path(), 9 * each);
+  for (std::size_t i = 0; i < 24; ++i) {
+    ASSERT_TRUE(small.store(key(static_cast<char>('A' + i)), mesh, nullptr));
+    EXPECT_LE(small.usage().bytes, 9 * each) << i;
+  }
+}
+
 TEST(TreeCache, WhatIsNotItsOwnIsNeitherCountedNorRemoved) {
   const test::TemporaryFolder folder;
   folder.write("letter.txt", "dear");
