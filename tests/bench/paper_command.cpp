@@ -38,7 +38,7 @@ struct PaperResults {
   std::vector<ForceSample> samples;
 
   void add(const std::vector<PaperFigure>& more) {
-    fmt::print("{}", figureTable(more));
+    fmt::print("{}", paperFigureTable(more));
     std::fflush(stdout);
     figures.insert(figures.end(), more.begin(), more.end());
   }
@@ -178,8 +178,8 @@ void runPaper(const PaperOptions& options) {
   const std::string header = machine + fmt::format("# load at end: {}\n", loadAverages());
   std::string csv;
   for (const PaperFigure& figure : results.figures)
-    csv += figureCsvLine(figure);
-  if (!options.csv.empty()) atomicWrite(options.csv, header + figureCsvHeader() + csv);
+    csv += paperFigureCsvLine(figure);
+  if (!options.csv.empty()) atomicWrite(options.csv, header + paperFigureCsvHeader() + csv);
   if (!options.samples.empty()) atomicWrite(options.samples, header + samplesText(results.samples));
 }
 

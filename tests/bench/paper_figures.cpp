@@ -29,7 +29,7 @@ PaperFigure paperFigure(const FigureHead& head, std::string method, std::string 
   return paperFigure(head, std::move(method), std::move(quantity), std::vector{value});
 }
 
-std::string figureTable(std::span<const PaperFigure> figures) {
+std::string paperFigureTable(std::span<const PaperFigure> figures) {
   std::string out, last;
   for (const PaperFigure& f : figures) {
     const std::string title = f.setting.empty() ? fmt::format("{}, {}", f.part, f.scene)
@@ -45,11 +45,11 @@ std::string figureTable(std::span<const PaperFigure> figures) {
   return out;
 }
 
-std::string figureCsvHeader() {
+std::string paperFigureCsvHeader() {
   return "part,scene,setting,method,quantity,samples,mean,p50,p90,p99,p99_9,max\n";
 }
 
-std::string figureCsvLine(const PaperFigure& f) {
+std::string paperFigureCsvLine(const PaperFigure& f) {
   return fmt::format("{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", f.part, f.scene,
                      f.setting, f.method, f.quantity, f.samples, f.mean, f.p50, f.p90, f.p99, f.p999, f.max);
 }

@@ -30,8 +30,8 @@ PaperFigure paperFigure(const FigureHead& head, std::string method, std::string 
 PaperFigure paperFigure(const FigureHead& head, std::string method, std::string quantity, double value);
 
 /// A line each, with a headline where scene or setting changes.
-std::string figureTable(std::span<const PaperFigure> figures);
-std::string figureCsvHeader();
-std::string figureCsvLine(const PaperFigure& figure);
+std::string paperFigureTable(std::span<const PaperFigure> figures);
+std::string paperFigureCsvHeader();
+std::string paperFigureCsvLine(const PaperFigure& figure);
 
 }  // namespace nearfit::bench

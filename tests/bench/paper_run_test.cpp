@@ -120,8 +120,8 @@ TEST(PaperFigures, SumUpAndKeepTheirHead) {
   EXPECT_NEAR(f.mean, 2.5, 1e-12);
   EXPECT_NEAR(f.p50, 2.0, 1e-12);
   EXPECT_NEAR(f.max, 4.0, 1e-12);
-  EXPECT_EQ(figureCsvLine(f), "cutoff,a,0.05,exact,query [us],4,2.5,2,4,4,4,4\n");
-  const std::string header = figureCsvHeader(), line = figureCsvLine(f);
+  EXPECT_EQ(paperFigureCsvLine(f), "cutoff,a,0.05,exact,query [us],4,2.5,2,4,4,4,4\n");
+  const std::string header = paperFigureCsvHeader(), line = paperFigureCsvLine(f);
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(line.begin(), line.end(), ','));
 }
 
