@@ -313,6 +313,12 @@ class FirstArrival(Folder):
         self.write(bench + "verdicts.csv",
                    "scene,pairs,agree,worst_distance_difference_m,clear,near,touching,clashes,contained\nvise,10,10,1e-16,1,2,3,4,0\n")
         self.assertIn("| vise | 10 | 10 | 1e-16 | 1 | 2 | 3 | 4 | 0 |", self.make("verdicts"))
+        self.write("tests/app/export/results/read_back.csv",
+                   "revision,writer,format,reader,parts,names_equal,max_pose_error,colours_differing,shapes_not_shared,validator,"
+                   "validator_errors,validator_warnings,right\nabc,Nearfit 1,step,OCP 7,12,yes,1e-12,0,0,,,,yes\n"
+                   "abc,Nearfit 1,glb,trimesh 5,11,no,1e-12,0,0,gltf-validator 2,3,0,no\n")
+        self.assertIn("| `.step` | OCP 7 | 12 | yes | 1e-12 | 0 | 0 | none | right |", self.make("read back"))
+        self.assertIn("| 3 errors, 0 warnings (gltf-validator 2) | **not right** |", self.make("read back"))
         self.write(bench + "window_hour.csv",
                    "minute,memory_MB,ticks,overruns,late_p50_us,late_p99_us,late_p99_9_us,late_max_us,tick_p50_us,tick_p99_us,tick_max_us,"
                    "in_contact,pictures\n1,200,60000,0,1,20,30,900,20,40,80,0.5,900\n2,210,60000,3,1,20,30,2500,20,40,80,0.7,900\n")

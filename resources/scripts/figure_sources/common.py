@@ -17,7 +17,7 @@ MACHINES = {"A": "with AVX-512, AVX-VNNI and VP2INTERSECT", "B": "with AVX-512, 
             "D": "without AVX-512", "C": "not described further by the files"}
 
 
-def needs(*files):
+def needs(*files, command="resources/scripts/measure"):
     """For a figure whose results may not be committed yet: it says so until they are."""
 
     def of(make):
@@ -25,7 +25,7 @@ def needs(*files):
         def made(results):
             missing = [f"`{file.rsplit('/', 1)[1]}`" for file in files if not results.has(file)]
             if missing:
-                return f"*No results are committed yet: `resources/scripts/measure` makes {', '.join(missing)}.*"
+                return f"*No results are committed yet: {', '.join(missing)} of `{command}`.*"
             return make(results)
 
         return made

@@ -102,5 +102,20 @@ def hour(results):
                     "last", "worst at minute"], rows)
 
 
-FIGURES = {"checks": checks, "verdicts": verdicts, "paths": paths, "suggestions": suggestions, "documents": documents,
+READ_BACK = "tests/app/export/results/read_back.csv"
+
+
+@c.needs(READ_BACK, command="tests/app/export/read_back.py")
+def read_back(results):
+    rows = []
+    for row in results.table(READ_BACK).where():
+        errors = f"{row['validator_errors']} errors, {row['validator_warnings']} warnings ({row['validator']})" if row["validator"] else "none"
+        rows.append([f"`.{row['format']}`", row["reader"], row["parts"], row["names_equal"], row["max_pose_error"], row["colours_differing"],
+                     row["shapes_not_shared"], errors, "right" if row["right"] == "yes" else "**not right**"])
+    writers = ", ".join(sorted({f"{row['writer']} at `{row['revision']}`" for row in results.table(READ_BACK).where()}))
+    return n.table([f"format, written by {writers}", "read by", "parts", "names equal", "poses off by at most", "colours that differ",
+                    "shapes not shared", "validator", "outcome"], rows, right_from=9)
+
+
+FIGURES = {"read back": read_back, "checks": checks, "verdicts": verdicts, "paths": paths, "suggestions": suggestions, "documents": documents,
            "window hour": hour}
