@@ -24,13 +24,13 @@ std::uint64_t residentAsItIs() {
 }
 
 void openDemo(BenchWindow& window) {
-  ui::MainWindow& main = window.application().window();
-  if (!main.openDemo()) {
+  ui::MainWindow& shell = window.application().window();
+  if (!shell.openDemo()) {
     throw Error("demo", "it cannot be opened",
                 "start the program where it was built, beside the sources, or installed");
   }
   waitUntil("the demo", [&] {
-    return !main.document().isBusy() && window.application().session().scene().movingPart().has_value();
+    return !shell.document().isBusy() && window.application().session().scene().movingPart().has_value();
   });
   window.settle();
 }
