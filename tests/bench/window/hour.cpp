@@ -45,9 +45,9 @@ struct ShownSnapshots {
 }  // namespace
 
 void keepWindowOpen(const HourOptions& options, const std::function<void(const HourRow&)>& tell) {
+  ShownSnapshots shown;  // Outlives the servo that tells of them.
   BenchWindow window;
   openDemo(window);
-  ShownSnapshots shown;
   desktop::ServoController& servo = window.application().servo();
   QObject::connect(&servo, &desktop::ServoController::snapshotArrived, &servo,
                    [&shown](const ServoSnapshot& s) {
