@@ -31,6 +31,17 @@ void LatencyHistogram::record(double seconds, std::uint64_t times) noexcept {
   max_ = std::max(max_, seconds);
 }
 
+LatencyHistogram LatencyHistogram::since(const LatencyHistogram& earlier) const {
+  LatencyHistogram later;
+  later.count_ = count_ - earlier.count_;
+  later.sum_ = sum_ - earlier.sum_;
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    later.bins_[bin] = bins_[bin] - earlier.bins_[bin];
+    if (later.bins_[bin] > 0) later.max_ = bin + 1 < kBins ? std::min(upperBound(bin), max_) : max_;
+  }
+  return later;
+}
+
 double LatencyHistogram::percentile(double fraction) const noexcept {
   if (count_ == 0) return 0.0;
   const double rank = std::max(1.0, std::ceil(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(count_)));

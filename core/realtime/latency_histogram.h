@@ -13,6 +13,10 @@ class LatencyHistogram {
   void record(double seconds, std::uint64_t times = 1) noexcept;
   void clear() noexcept { *this = LatencyHistogram(); }
 
+  /// What was recorded since `earlier`, a copy of this histogram from before; not real-time safe. The longest
+  /// duration is exact if it is the longest of all, else the upper bound of its bin.
+  LatencyHistogram since(const LatencyHistogram& earlier) const;
+
   std::uint64_t count() const noexcept { return count_; }
   /// Duration that the given fraction (0 to 1) of the records do not exceed [s]; 0 without records.
   double percentile(double fraction) const noexcept;

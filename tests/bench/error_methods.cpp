@@ -90,7 +90,7 @@ std::vector<ErrorMethodEntry> exactErrorMethods() {
   return {
       {"exact cold", "all local minimum distances within the cutoff, from nothing", 1, true,
        [](const ErrorScene& scene) { return std::make_unique<ExactCold>(scene); }},
-      {"exact tracked", "the same from lists that another thread renews; its time is not counted",
+      {"exact tracked", "the same from lists that another thread renews; its time stands apart",
        kTrackedLeadIn, true, [](const ErrorScene& scene) { return std::make_unique<ExactTracked>(scene); }},
       {"exact grouped", "tracked; of the minima of an area of contact (mergeAreas) the nearest alone",
        kTrackedLeadIn, false, [](const ErrorScene& scene) { return std::make_unique<ExactGrouped>(scene); }}};

@@ -90,13 +90,13 @@ def exact_times(table, pair, quantity, rows):
     exact = [r for m in table.methods if data.is_exact(m) for r in table.of(pair, m)]
     limits = [max(data.error(r, quantity) * data.MARGIN, data.SETTLED) for r in rows]
     times = [data.time_to(exact, quantity, limit) for limit in limits]
-    return [None if t is None else t / r["p50_us"] for t, r in zip(times, rows)]
+    return [None if t is None else t / r["paid_us"] for t, r in zip(times, rows)]
 
 
 def win_line(table, pair, quantity, rows):
     _, name, unit, _ = data.QUANTITIES[quantity]
     text = (f"- {pair}, {name}: {rows[0]['method']} at {in_words([data.error(r, quantity) for r in rows], unit)} in "
-            f"{span([r['p50_us'] for r in rows], 'µs')}")
+            f"{span([r['paid_us'] for r in rows], 'µs')}")
     missed, truths = (np.mean([r[k] for r in rows]) for k in ("missed", "truths"))
     if missed > 0:
         return f"{text}, missing {small(missed)} of {small(truths)} minima a pose."
@@ -151,10 +151,10 @@ def same_mesh_table(table, base):
     others = [m for m in table.methods if not data.is_exact(m)]
     rows = []
     for pair in table.pairs:
-        times = {r["fineness"]: r["p50_us"] for r in table.of(pair, base)}
+        times = {r["fineness"]: r["paid_us"] for r in table.of(pair, base)}
         row = [pair]
         for method in others:
-            ratios = [r["p50_us"] / times[r["fineness"]] for r in table.of(pair, method) if r["fineness"] in times]
+            ratios = [r["paid_us"] / times[r["fineness"]] for r in table.of(pair, method) if r["fineness"] in times]
             text = f"{min(ratios):.2g} to {max(ratios):.2g}"
             row.append(f"**{text}**" if min(ratios) * data.MARGIN < 1 else text)
         rows.append(row)
@@ -170,7 +170,8 @@ def page(table):
               "## Who is on the Pareto front", "",
               "Points (a method on a mesh) that no other beats in both median time and error, over all pairs; what is better "
               "by less than 2 % does not beat. *grouped* drops minima, which the program does only if asked to, and is left out of fronts. "
-              "Times of *exact tracked* leave out the thread that searches ahead.", ""]
+              + ("Times are medians of an answer and, on average, what another thread does for it: the search ahead of *exact tracked*."
+                 if table.pays_for_all_threads else "Times of *exact tracked* leave out the thread that searches ahead."), ""]
     lines += shares(table)
     lines += ["", "## Where a method that is not exact wins", ""]
     lines += win_lines(table)

@@ -37,11 +37,11 @@ def styles(table):
 
 def _curve(axes, rows, quantity, style):
     colour, marker, line = style
-    x, y = [r["p50_us"] for r in rows], [data.error(r, quantity) for r in rows]
+    x, y = [r["paid_us"] for r in rows], [data.error(r, quantity) for r in rows]
     sizes = np.linspace(5, 34, max(len(rows), 2))[:len(rows)]
     filled = "none" if line == "--" else colour
     for row, e in zip(rows, y):
-        axes.plot([row["p50_us"], row["p99_us"]], [e, e], color=colour, lw=0.6, alpha=0.35, zorder=2)
+        axes.plot([row["paid_us"], row["paid_p99_us"]], [e, e], color=colour, lw=0.6, alpha=0.35, zorder=2)
     axes.plot(x, y, line, color=colour, lw=1.3, zorder=3)
     axes.scatter(x, y, s=sizes, marker=marker, facecolors=filled, edgecolors=colour, linewidths=1.0, zorder=4)
 
@@ -49,7 +49,7 @@ def _curve(axes, rows, quantity, style):
 def _front(axes, rows, quantity):
     """Everything above and to the right of it is beaten."""
     kept = data.front([r for r in rows if np.isfinite(data.error(r, quantity))], quantity)
-    x, y = [r["p50_us"] for r in kept], [data.error(r, quantity) for r in kept]
+    x, y = [r["paid_us"] for r in kept], [data.error(r, quantity) for r in kept]
     axes.step(x + [1e9], y + y[-1:], where="post", color=FRONT, lw=4.5, zorder=1, solid_capstyle="round")
 
 
@@ -60,7 +60,7 @@ def _panel(axes, table, looks, pair, quantity):
     _front(axes, rows, quantity)
     for method, style in looks.items():
         _curve(axes, table.of(pair, method), quantity, style)
-    times = [r["p50_us"] for r in rows] + [r["p99_us"] for r in rows]
+    times = [r["paid_us"] for r in rows] + [r["paid_p99_us"] for r in rows]
     errors = [data.error(r, quantity) for r in rows if np.isfinite(data.error(r, quantity))]
     axes.set_xlim(min(times) / 1.5, max(times) * 1.5)
     axes.set_ylim(min(errors) / 3, max(errors) * 3)

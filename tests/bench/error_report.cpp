@@ -8,7 +8,7 @@ std::string errorCsvHeader() {
   return "pair,method,fineness,edge_m,scene_triangles,part_triangles,poses,p50_us,p99_us,truths,minima,"
          "missed,"
          "spurious,extra,distance_rms_m,distance_max_m,position_rms_m,position_max_m,direction_rms,"
-         "direction_max,force_rms,force_max,torque_rms_m,torque_max_m,differing,bytes\n";
+         "direction_max,force_rms,force_max,torque_rms_m,torque_max_m,differing,bytes,aside_us\n";
 }
 
 std::string errorCsvLine(const ErrorRow& r) {
@@ -17,7 +17,7 @@ std::string errorCsvLine(const ErrorRow& r) {
                                  r.poses, r.p50, r.p99, r.truths, r.minima, r.missed, r.spurious, r.extra);
   for (const ErrorSummary& e : {r.distance, r.position, r.direction, r.force, r.torque})
     line += fmt::format(",{:.4g},{:.4g}", e.rms, e.max);
-  return line + fmt::format(",{},{}\n", r.differing, r.bytes);
+  return line + fmt::format(",{},{},{:.3f}\n", r.differing, r.bytes, r.aside);
 }
 
 std::string errorTableHeader() {

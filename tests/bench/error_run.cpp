@@ -27,7 +27,8 @@ constexpr double kTurn = 0.05 * std::numbers::pi / 180.0;  // A tick [rad].
 struct Lane {
   const ErrorMethodEntry* entry;
   std::unique_ptr<ErrorMethod> method;
-  std::vector<double> times{};
+  std::vector<double> times{};   ///< Of the answers at the poses.
+  std::vector<double> asides{};  ///< Of what is done beside each tick of each way.
   std::vector<AnswerErrors> errors{};
   std::vector<std::vector<Lmd>> minima{};  ///< Of each pose.
 };
@@ -53,8 +54,10 @@ void answerPose(Lane& lane, const ErrorScene& scene, const ErrorPose& pose, std:
     answer.clear();
     const double start = secondsBy(clock);
     lane.method->answer(step, answer);
-    time = secondsBy(clock) - start;
+    const double answered = secondsBy(clock);
+    time = answered - start;
     lane.method->workAside(step);
+    lane.asides.push_back(secondsBy(clock) - answered);
   }
   lane.times.push_back(time);
   lane.errors.push_back(errorsOf(answer, pose, scene.springs, edge));
@@ -91,6 +94,7 @@ ErrorRow rowOf(const Lane& lane) {
   const SampleSummary times(lane.times);
   row.p50 = kMicro * times.percentile(0.5);
   row.p99 = kMicro * times.percentile(0.99);
+  row.aside = kMicro * SampleSummary(lane.asides).mean();
   row.missed = meanOf(lane.errors, &AnswerErrors::missed);
   row.spurious = meanOf(lane.errors, &AnswerErrors::spurious);
   row.extra = meanOf(lane.errors, &AnswerErrors::extra);

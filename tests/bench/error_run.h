@@ -33,6 +33,7 @@ struct ErrorRow {
   std::size_t sceneTriangles = 0, partTriangles = 0, poses = 0;
   std::size_t bytes = 0;        ///< As ErrorMethod::byteSize.
   double p50 = 0.0, p99 = 0.0;  ///< Of an answer [us].
+  double aside = 0.0;           ///< What another thread does for it, a tick of the way on average [us].
   double truths = 0.0, minima = 0.0, missed = 0.0, spurious = 0.0, extra = 0.0;  ///< A pose, on average.
   ErrorSummary distance, position, direction, force, torque;                     ///< As AnswerErrors.
   /// Of an exact method: poses at which its minima are not those of the first exact one, to the last bit.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -133,6 +134,33 @@ TEST(TrackedMinima, AreColdOnesToTheLastBitAlongEveryWay) {
       }
     }
   }
+}
+
+constexpr double kAside = 1e-4;  // [s]
+
+/// Finds nothing, and lets another thread work for as long as that.
+class WorksAside : public ErrorMethod {
+ public:
+  void answer(const RigidTransform&, ContactAnswer&) override {}
+  void workAside(const RigidTransform&) override {
+    const double start = secondsBy(BenchClock::Thread);
+    while (secondsBy(BenchClock::Thread) - start < kAside) {
+    }
+  }
+};
+
+TEST(ErrorRows, SayWhatIsDoneBesideAnAnswer) {
+  const std::vector<ErrorMethodEntry> methods{
+      {"works aside", "", 1, false, [](const ErrorScene&) { return std::make_unique<WorksAside>(); }}};
+  ErrorRunOptions options;
+  options.finenesses = {1};
+  options.poses = 5;
+  options.clock = BenchClock::Thread;
+  const std::vector<ErrorRow> rows = runErrors(errorPairs().front(), methods, options);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_GE(rows.front().aside, 1e6 * kAside);
+  const std::string header = errorCsvHeader(), line = errorCsvLine(rows.front());
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(line.begin(), line.end(), ','));
 }
 
 TEST(WayTo, EndsWithThePoseAndGoesByATickAtATime) {

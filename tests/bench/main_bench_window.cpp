@@ -1,5 +1,7 @@
 #include <QApplication>
 #include <QSettings>
+#include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -9,12 +11,14 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "tests/bench/command_program.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/selection.h"
 #include "tests/bench/window/bench_window.h"
 #include "tests/bench/window/figures.h"
+#include "tests/bench/window/hour.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -52,14 +56,18 @@ struct CommandOptions {
   std::filesystem::path csv;
 };
 
-void measure(CommandOptions options, int argc, char** argv) {
-  // Nobody's settings are read or changed.
+/// Runs it in a Qt application. Nobody's settings are read or changed.
+void withApplication(int argc, char** argv, const std::function<void()>& run) {
   const test::TemporaryFolder settings;
   desktop::Application::prepare();
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
                      QString::fromStdString(settings.path().string()));
   const QApplication qt(argc, argv);
   desktop::Application::configure();
+  run();
+}
+
+void measure(CommandOptions options) {
   options.window.program = std::filesystem::canonical("/proc/self/exe").string();
   options.window.time = std::chrono::milliseconds(static_cast<int>(1e3 * options.seconds));
   const std::string machine = bench::machineComment(options.csv) +
@@ -76,6 +84,52 @@ void measure(CommandOptions options, int argc, char** argv) {
   if (options.csv.empty()) return;
   atomicWrite(options.csv, machine + fmt::format("# load at end: {}\n", bench::loadAverages()) +
                                bench::figureCsvHeader() + lines);
+}
+
+struct HourCommandOptions {
+  double minutes = 60.0, every = 60.0;
+  std::filesystem::path csv;
+};
+
+void measureHour(const HourCommandOptions& options) {
+  const bench::HourOptions hour{std::chrono::milliseconds(static_cast<int>(60e3 * options.minutes)),
+                                std::chrono::milliseconds(static_cast<int>(1e3 * options.every))};
+  const std::string machine =
+      bench::machineComment(options.csv) +
+      fmt::format("# the demo in the scripted hand for {:g} minutes, a row each {:g} s\n", options.minutes,
+                  options.every);
+  fmt::print("{}{}", machine, bench::hourCsvHeader());
+  std::vector<std::uint64_t> resident;
+  std::string lines;
+  bench::keepWindowOpen(hour, [&](const bench::HourRow& row) {
+    fmt::print("{}", bench::hourCsvLine(row));
+    std::fflush(stdout);
+    lines += bench::hourCsvLine(row);
+    resident.push_back(row.resident);
+  });
+  const std::int64_t growth = bench::growthOf(resident);
+  const std::string end = fmt::format("# growth after the first tenth: {} bytes\n# load at end: {}\n", growth,
+                                      bench::loadAverages());
+  fmt::print("{}", end);
+  if (!options.csv.empty()) atomicWrite(options.csv, machine + end + bench::hourCsvHeader() + lines);
+  if (growth > bench::kMaxHourGrowth) {
+    throw Error("hour", fmt::format("the window's memory grew by {} bytes", growth),
+                fmt::format("find what keeps more than {} bytes", bench::kMaxHourGrowth));
+  }
+}
+
+void addHour(CLI::App& program, int argc, char** argv) {
+  const auto options = std::make_shared<HourCommandOptions>();
+  CLI::App* hour = program.add_subcommand(
+      "hour", "Memory and lateness with the demo in the scripted hand and its window open; needs a display.");
+  hour->add_option("--minutes", options->minutes, "By the wall clock")
+      ->check(CLI::Range(0.05, 1440.0))
+      ->capture_default_str();
+  hour->add_option("--every", options->every, "Seconds of a row")
+      ->check(CLI::Range(0.5, 3600.0))
+      ->capture_default_str();
+  hour->add_option("--csv", options->csv, "File for the table");
+  hour->callback([options, argc, argv] { withApplication(argc, argv, [&] { measureHour(*options); }); });
 }
 
 void addCommands(CLI::App& program, int argc, char** argv) {
@@ -118,7 +172,8 @@ void addCommands(CLI::App& program, int argc, char** argv) {
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
   figures->add_option("--csv", options->csv, "File for the table");
-  figures->callback([options, argc, argv] { measure(*options, argc, argv); });
+  figures->callback([options, argc, argv] { withApplication(argc, argv, [&] { measure(*options); }); });
+  addHour(program, argc, argv);
   CLI::App* start =
       program.add_subcommand("start", "Starts the application, says when it is usable, and ends.");
   start->callback([argc, argv] { (void)bench::startAndLeave(argc, argv); });

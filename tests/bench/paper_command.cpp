@@ -85,14 +85,9 @@ void runCutoff(const PaperRow& row, const BenchScene& meshes, const PaperOptions
 
 void runJudge(const PaperRow& row, const BenchScene& meshes, const PaperOptions& options,
               PaperResults& results) {
-  std::vector<ErrorMethodEntry> methods;
-  for (ErrorMethodEntry& entry : allErrorMethods()) {
-    const bool isJudged = entry.name == "exact cold" || entry.name == "exact tracked" ||
-                          entry.name.starts_with("paper ") || entry.name == "FCL global distance";
-    if (isJudged) methods.push_back(std::move(entry));
-  }
   const ErrorScene scene(meshes.scene, meshes.part, row.cutoffFraction * meshes.size());
-  results.add(judgeFigures({"judge", meshes.name, ""}, scene, methods, judgedPosesOf(row, meshes, options)));
+  results.add(
+      judgeFigures({"judge", meshes.name, ""}, scene, judgedMethods(), judgedPosesOf(row, meshes, options)));
 }
 
 void runArguments(const PaperRow& row, const BenchScene& meshes, const PaperOptions& options,

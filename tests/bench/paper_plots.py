@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Draws what `nearfit-bench paper --csv FILE [--samples FILE]` measured: rates beside the paper's, time against cutoff and
-triangles, errors of the paper's rule, and force against time.
+triangles, errors of the paper's rule, time against error, and force against time.
 
     /usr/bin/python3 tests/bench/paper_plots.py paper.csv [--samples paper_force.csv] [--out FOLDER]
 """
@@ -19,7 +19,7 @@ LOOKS = {  # Colour and marker.
     "nearfit-tracked": ("#c0392b", "o"), "nearfit-cold": ("#e08a1e", "s"), "fcl": ("#888888", "^"),
     "paper-spans": ("#1f4e9e", "v"), "paper-cones": ("#1aa6b7", "D"), "exact tracked": ("#c0392b", "o"),
     "exact cold": ("#e08a1e", "s"), "paper spans": ("#1f4e9e", "v"), "paper cones": ("#1aa6b7", "D"),
-    "springs' tick": ("#7d3c98", "P"), "proxy's tick": ("#1e8449", "X"), "printed": ("black", "*"),
+    "exact grouped": ("#b7950b", "p"), "springs' tick": ("#7d3c98", "P"), "proxy's tick": ("#1e8449", "X"), "printed": ("black", "*"),
     "FCL global distance": ("#888888", "^"),
 }
 OTHER = ("#b08050", "h")
@@ -118,6 +118,43 @@ def draw_errors(rows, folder):
     save(figure, folder, "paper_errors.png")
 
 
+def on_front(points):
+    """Those that no other point is both as quick and as near as; `points` are (time, error, method)."""
+    return [p for p in points if not any(q[0] <= p[0] and q[1] <= p[1] and q[:2] != p[:2] for q in points)]
+
+
+def points_of(rows, scene):
+    """(time of all threads, error of the force, method) of each judged method of a row, both means."""
+    points = []
+    for method in names(of(rows, part="judge", scene=scene, quantity="force error [relative]"), "method"):
+        errors = of(rows, part="judge", scene=scene, method=method, quantity="force error [relative]")
+        times = of(rows, part="appendix", scene=scene, method=method, quantity="loop and search beside it [us]")
+        if errors and times and int(errors[0]["samples"]) > 0:
+            points.append((float(times[0]["mean"]), float(errors[0]["mean"]), method))
+    return points
+
+
+def draw_front(rows, folder):
+    """Time of all threads against error of the force, a panel a row of the appendix; whoever is on the front is ringed."""
+    scenes = [s for s in names(of(rows, part="judge"), "scene") if points_of(rows, s)]
+    if not scenes:
+        return
+    figure, axes = plt.subplots(1, len(scenes), figsize=(3.4 * len(scenes), 3.8), squeeze=False, sharey=True)
+    for one, scene in zip(axes[0], scenes):
+        points = points_of(rows, scene)
+        for time, error, method in points:
+            one.plot(time, max(error, 1e-16), ls="", label=method, **look(method))
+        for time, error, _ in on_front(points):
+            one.plot(time, max(error, 1e-16), "o", ms=14, mfc="none", color="black")
+        one.set_xscale("log")
+        one.set_yscale("log")
+        one.set_title(scene, fontsize=9)
+        one.set_xlabel("all threads [us]")
+    axes[0][0].set_ylabel("mean error of the force [of the exact one]")
+    axes[0][-1].legend(fontsize=7)
+    save(figure, folder, "paper_front.png")
+
+
 def draw_forces(samples, folder):
     """Force against time, a panel for each choice of springs: their scales differ by orders of magnitude."""
     for scene in names(samples, "scene"):
@@ -146,6 +183,7 @@ def main():
     if of(rows, part="appendix"):
         draw_rates(rows, options.out)
     draw_errors(rows, options.out)
+    draw_front(rows, options.out)
     draw_sweep(rows, options.out, "cutoff", "cutoff [of the larger body's diagonal]")
     draw_sweep(rows, options.out, "triangles", "triangles of both meshes")
     if options.samples:

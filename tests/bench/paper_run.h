@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/bench/bench_clock.h"
+#include "tests/bench/error_method.h"
 #include "tests/bench/paper_figures.h"
 #include "tests/bench/paper_rows.h"
 #include "tests/bench/query_method.h"
@@ -22,6 +23,10 @@ struct PaperRunOptions {
   std::uint64_t seed = 1;        ///< Of paths.
   BenchClock clock = BenchClock::Thread;
 };
+
+/// Whose answers are judged against exact arithmetic, and whose loops are timed: exact sets, one spring for each area of
+/// contact, both readings of the paper, and the nearest pair alone if there is FCL.
+std::vector<ErrorMethodEntry> judgedMethods();
 
 /// A hand's path that begins at a row's pose and stays near it, within its configuration.
 std::vector<RigidTransform> pathOfRow(const PreparedScene& scene, std::size_t poses, std::uint64_t seed);

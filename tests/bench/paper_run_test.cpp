@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -81,6 +82,35 @@ TEST(Sweeps, HaveTimesAndCountsOfEachMethodAndLeaveThePapersOutWhereTold) {
     EXPECT_TRUE(with.contains(name));
     EXPECT_FALSE(without.contains(name));
   }
+}
+
+TEST(Appendix, EachJudgedMethodPaysForWhatIsDoneBesideItToo) {
+  const BenchScene meshes = sweptBodies()[1].make(512);
+  PaperRow row = paperRows().front();
+  row.pose = *meshes.start;
+  row.cutoffFraction = kUsualCutoffFraction;
+  PaperRunOptions options;
+  options.poses = 20;
+  options.slowStride = 10;
+  const std::vector<PaperFigure> figures = appendixFigures(row, meshes, options);
+  const auto figureOf = [&](const std::string& method, const std::string& quantity) {
+    const auto found = std::find_if(figures.begin(), figures.end(), [&](const PaperFigure& f) {
+      return f.method == method && f.quantity == quantity;
+    });
+    return found == figures.end() ? PaperFigure{} : *found;
+  };
+  std::set<std::string> names;
+  for (const ErrorMethodEntry& entry : judgedMethods()) {
+    names.insert(entry.name);
+    const PaperFigure loop = figureOf(entry.name, "loop [us]"),
+                      whole = figureOf(entry.name, "loop and search beside it [us]");
+    EXPECT_GT(loop.samples, 0U) << entry.name;
+    EXPECT_EQ(whole.samples, loop.samples) << entry.name;
+    EXPECT_GE(whole.mean, loop.mean) << entry.name;
+    EXPECT_EQ(figureOf(entry.name, "prepared in [s]").samples, 1U) << entry.name;
+  }
+  for (const char* name : {"exact cold", "exact tracked", "exact grouped", "paper spans", "paper cones"})
+    EXPECT_TRUE(names.contains(name)) << name;
 }
 
 TEST(PaperFigures, SumUpAndKeepTheirHead) {

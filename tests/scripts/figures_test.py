@@ -224,5 +224,108 @@ class RealTree(unittest.TestCase):
                 self.assertTrue(catalogue.make(results, name).strip())
 
 
+PAPER_HEADER = "part,scene,setting,method,quantity,samples,mean,p50,p90,p99,p99_9,max\n"
+
+
+class FirstArrival(Folder):
+    """Figures of results that are not committed yet."""
+
+    def write(self, file, text):
+        path = self.root / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(HEAD + text)
+
+    def make(self, name):
+        return catalogue.make(Results(self.root), name)
+
+    def paper(self):
+        def row(part, method, quantity, value, worst=None, scene="a disc-gear", setting="", samples=1):
+            worst = value if worst is None else worst
+            return f"{part},{scene},{setting},{method},{quantity},{samples},{value},{value},{value},{worst},{worst},{worst}\n"
+
+        text = PAPER_HEADER
+        for method, count in (("printed", 3), ("paper-spans", 3), ("paper-cones", 9), ("nearfit-cold", 2)):
+            text += row("appendix", method, "minima at the pose", count)
+        text += row("appendix", "printed", "loop [Hz]", 176)
+        for method, time, slowest in (("paper spans", 4000, 8000), ("exact tracked", 5, 50), ("proxy's tick", 20, 100)):
+            text += row("appendix", method, "loop [Hz]", 1e6 / time) + row("appendix", method, "loop [us]", time, slowest)
+        for method, whole, error in (("paper spans", 4000, 0.5), ("exact tracked", 30, 0), ("FCL global distance", 20, 0.9)):
+            text += row("appendix", method, "loop and search beside it [us]", whole)
+            text += row("judge", method, "force error [relative]", error) + row("judge", method, "minima missed", 0)
+        text += row("arguments", "global minimum", "force [N]", 0.7) + row("arguments", "global minimum", "springs", 1)
+        text += row("arguments", "exact", "springs born at the cutoff", 12)
+        for part, setting in (("cutoff", "0.05"), ("triangles", "512")):
+            text += row(part, "nearfit-cold", "query [us]", 3, 9, setting=setting) + row(part, "nearfit-cold", "minima", 2, 4, setting=setting)
+        self.write("tests/bench/results/paper.csv", text)
+
+    def test_say_that_there_are_none_until_there_are(self):
+        for name in ("appendix a", "judged", "front on the paper's meshes", "checks", "paths", "suggestions", "verdicts", "window hour",
+                     "stress in the springs' modes", "low rates"):
+            self.assertRegex(self.make(name), r"^\*No results are committed yet: .*\.csv")
+        picture = "picture tests/bench/results/x.png as x.png: a plot"
+        self.assertIn("`x.png` is not committed yet", self.make(picture))
+        (self.root / "tests/bench/results/x.png").write_bytes(b"")
+        self.assertEqual(self.make(picture), "![a plot](x.png)")
+
+    def test_make_the_tables_of_the_paper_once_its_file_is_there(self):
+        self.paper()
+        self.assertIn("| a disc-gear | 3 | 2 | 176 | 250 (125) | 200,000 (20,000) | 50,000 (10,000) |", self.make("appendix a in short"))
+        self.assertIn("| a disc-gear | 3 | 3 | 9 | 2 | 176 |", self.make("appendix a"))
+        front = {line.split(" | ")[1]: line for line in self.make("front on the paper's meshes").splitlines()[2:]}
+        self.assertEqual({name: "**front**" in line for name, line in front.items()},
+                         {"FCL global distance": True, "exact tracked": True, "paper spans": False})
+        for name in ("judged", "arguments", "onset", "law and centre"):
+            self.assertIn("a disc-gear", self.make(name))
+        self.assertIn("| 5 % | 3.0 (9.0) | 2 | 4 |", self.make("cutoff sweep"))
+        self.assertIn("| 512 | 3.0 (9.0) | 2 | 4 |", self.make("triangle sweep"))
+
+    def test_name_what_the_springs_miss(self):
+        self.springs(shaken=0, failure="")
+        self.assertNotIn("**", self.make("stress in the springs' modes"))
+        self.springs(shaken=1, failure="gained energy")
+        made = self.make("stress in the springs' modes")
+        self.assertIn("**1 shaken**", made)
+        self.assertIn("**missed** by rings", made)
+        self.assertIn("| springs | 100 | 1 of 1 | 1 | 5.0 |", self.make("low rates"))
+
+    def springs(self, shaken, failure):
+        modes = ("spring", "printed", "grouped")
+        self.write("tests/stress/results/hand_springs.csv",
+                   "mode,scene,ticks,energy gain J,largest force step N,springs held,failure\n"
+                   + "".join(f"{mode},rings,1000,0.02,3,10,{failure}\n" for mode in modes))
+        self.write("tests/stress/results/rest_springs.csv",
+                   "mode,scene,stiffness N/m,rate Hz,rough,handle rms um,force rms mN,largest force step N,energy gain J,at rest,shaken\n"
+                   + "".join(f"{mode},flat,200,100,0,5,2,0.1,0.01,1,{shaken}\n" for mode in modes))
+        self.write("tests/stress/results/limit_springs.csv", "mode,simulated by enforced\n" + "".join(f"{m},2.1\n" for m in modes))
+        self.write("tests/stress/results/hours_springs.csv",
+                   "mode,ticks,force drift N,growth bytes\n" + "".join(f"{m},3600000,0,0\n" for m in modes))
+
+    def test_make_the_tables_of_scenes_once_their_files_are_there(self):
+        bench = "tests/bench/results/"
+        self.write(bench + "check.csv", "scene,parts,meshes,triangles,threshold_m,method,figure,unit,runs,median,worst,goal,met,remark\n"
+                   "parts200,200,20,2000000,0.1,nearfit,whole check,s,3,4,6.5,5,yes,\n")
+        self.assertIn("| whole check | 4.0 s | 6.5 s | met (5.0 s) |", self.make("checks"))
+        self.write(bench + "path.csv", "scene,poses,triangles,certified_s,verified_s,ratio,places,meetings,goal_s,met\n"
+                   "peg,4000,576,12,3,0.25,1000000,0,10,no\n")
+        self.assertIn("| `peg` | 4,000 | 576 | 12 s | 3.0 s | 0.25 | 0 of 1,000,000 | **missed** |", self.make("paths"))
+        self.write(bench + "suggest.csv", "scene,seeds,found,p50_s,max_s,goal,met\npeg out,10,9,2,28,9 of 10 within 30 s,yes\n")
+        self.assertIn("| peg out | 9 of 10 | 2.0 s | 28 s | met (9 of 10 within 30 s) |", self.make("suggestions"))
+        self.write(bench + "verdicts.csv",
+                   "scene,pairs,agree,worst_distance_difference_m,clear,near,touching,clashes,contained\nvise,10,10,1e-16,1,2,3,4,0\n")
+        self.assertIn("| vise | 10 | 10 | 1e-16 | 1 | 2 | 3 | 4 | 0 |", self.make("verdicts"))
+        self.write("tests/app/export/results/read_back.csv",
+                   "revision,writer,format,reader,parts,names_equal,max_pose_error,colours_differing,shapes_not_shared,validator,"
+                   "validator_errors,validator_warnings,right\nabc,Nearfit 1,step,OCP 7,12,yes,1e-12,0,0,,,,yes\n"
+                   "abc,Nearfit 1,glb,trimesh 5,11,no,1e-12,0,0,gltf-validator 2,3,0,no\n")
+        self.assertIn("| `.step` | OCP 7 | 12 | yes | 1e-12 | 0 | 0 | none | right |", self.make("read back"))
+        self.assertIn("| 3 errors, 0 warnings (gltf-validator 2) | **not right** |", self.make("read back"))
+        self.write(bench + "window_hour.csv",
+                   "minute,memory_MB,ticks,overruns,late_p50_us,late_p99_us,late_p99_9_us,late_max_us,tick_p50_us,tick_p99_us,tick_max_us,"
+                   "in_contact,pictures\n1,200,60000,0,1,20,30,900,20,40,80,0.5,900\n2,210,60000,3,1,20,30,2500,20,40,80,0.7,900\n")
+        made = self.make("window hour")
+        self.assertIn("120,000 ticks, in contact in 60 %", made)
+        self.assertIn("| max | 900 us | 2.5 ms | 2.5 ms | 2.5 ms | 2 |", made)
+
+
 if __name__ == "__main__":
     unittest.main()

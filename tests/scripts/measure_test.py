@@ -117,7 +117,24 @@ class Parts(unittest.TestCase):
         return measured_parts.Setting("0123456789ab", ROOT, pathlib.Path("bin"), pathlib.Path("shared"), pathlib.Path("/measured"))
 
     def test_take_at_most_two_hours_together(self):
-        self.assertLessEqual(sum(part.minutes for part in measured_parts.PARTS), measured_parts.MAX_MINUTES)
+        self.assertLessEqual(sum(part.minutes for part in measured_parts.chosen("")), measured_parts.MAX_MINUTES)
+
+    def test_apart_run_by_their_whole_name_alone(self):
+        apart = [part.name for part in measured_parts.PARTS if part.is_apart]
+        self.assertEqual(apart, ["window-hour"])
+        self.assertNotIn("window-hour", [part.name for part in measured_parts.chosen("")])
+        self.assertEqual([part.name for part in measured_parts.chosen("window")], ["window"])
+        self.assertEqual([part.name for part in measured_parts.chosen("window-hour")], ["window-hour"])
+
+    def test_stress_every_mode_with_every_command_that_has_modes(self):
+        modes = {}
+        for part in measured_parts.PARTS:
+            for step in part.steps(self.setting()):
+                words = step.command or []
+                if words and words[0] == "bin/nearfit-stress" and "--mode" in words:
+                    modes.setdefault(words[1], set()).update(words[words.index("--mode") + 1].split(","))
+        every = {"proxy", "spring", "printed", "grouped"}
+        self.assertEqual(modes, {"hand": every, "rest": every, "limit": every, "hours": every})
 
     def test_have_names_of_their_own_and_write_no_file_twice(self):
         names = [part.name for part in measured_parts.PARTS]

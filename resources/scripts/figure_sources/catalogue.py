@@ -5,20 +5,33 @@ import re
 import bench
 import numbers_text as n
 import others
+import paper
 import readme
+import scenes
+import springs
 from results import FigureError
 
-FIGURES = {**readme.FIGURES, **bench.FIGURES, **others.FIGURES}
+FIGURES = {**readme.FIGURES, **bench.FIGURES, **others.FIGURES, **paper.FIGURES, **scenes.FIGURES, **springs.FIGURES}
+PICTURE = re.compile(r"picture (?P<file>\S+) as (?P<link>\S+): (?P<text>.+)")
 OF_COLUMNS = re.compile(r"csv (?P<file>\S+): (?P<columns>[^|]+?)(?: \| (?P<conditions>.+))?")
 
 
 def make(results, name):
     if name in FIGURES:
         return FIGURES[name](results)
+    if picture := PICTURE.fullmatch(name):
+        return _picture(results, **picture.groupdict())
     found = OF_COLUMNS.fullmatch(name)
     if not found:
         raise FigureError(f'"{name}"', "there is no such figure", "resources/scripts/figures --list names them")
     return _columns(results.table(found["file"]), [c.strip() for c in found["columns"].split(",")], found["conditions"])
+
+
+def _picture(results, file, link, text):
+    """A link, once there is something to show."""
+    if results.has(file):
+        return f"![{text}]({link})"
+    return f"*`{file.rsplit('/', 1)[1]}` is not committed yet: `resources/scripts/measure` draws it.*"
 
 
 def _columns(table, columns, conditions):

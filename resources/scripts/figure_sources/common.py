@@ -1,5 +1,6 @@
 """What several tables say: names of pairs and scenes, machines by letter, goals, and rows of the same kind."""
 
+import functools
 import re
 
 import numbers_text as n
@@ -14,6 +15,22 @@ CONFORMING = {"cylinder-tube": "cylinder in a tube", "box-hole": "box in a hole"
               "gears": "two gears", "nut-bolt": "nut on its bolt, 0.02 mm margin"}
 MACHINES = {"A": "with AVX-512, AVX-VNNI and VP2INTERSECT", "B": "with AVX-512, without VP2INTERSECT",
             "D": "without AVX-512", "C": "not described further by the files"}
+
+
+def needs(*files, command="resources/scripts/measure"):
+    """For a figure whose results may not be committed yet: it says so until they are."""
+
+    def of(make):
+        @functools.wraps(make)
+        def made(results):
+            missing = [f"`{file.rsplit('/', 1)[1]}`" for file in files if not results.has(file)]
+            if missing:
+                return f"*No results are committed yet: {', '.join(missing)} of `{command}`.*"
+            return make(results)
+
+        return made
+
+    return of
 
 
 def machine_letter(table):

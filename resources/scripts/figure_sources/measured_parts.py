@@ -5,8 +5,9 @@ import re
 import subprocess
 from dataclasses import dataclass, field
 
-# All parts together, waiting for a quiet machine not counted.
+# All parts together but those apart, waiting for a quiet machine not counted.
 MAX_MINUTES = 120
+SPRINGS = "spring,printed,grouped"
 PAPER = ("paper-bunny-sphere,paper-spring-teapot,paper-gear-disc,paper-gear-gear,paper-crankshaft-gear,paper-crankshaft-sphere,"
          "scan-bunny-armadillo")
 FELT = "cylinder-tube,box-hole,wheels,round-peg,rectangular-peg,gears,nut-bolt"
@@ -57,7 +58,7 @@ class Step:
 
 @dataclass
 class Part:
-    """`files` and `pictures` (patterns, beside them) are relative to tests/."""
+    """`files` and `pictures` (patterns, beside them) are relative to tests/. Parts apart run only by their whole name."""
     name: str
     minutes: float
     files: tuple
@@ -65,6 +66,7 @@ class Part:
     pictures: tuple = ()
     program: str = "nearfit-bench"
     command: str = ""
+    is_apart: bool = False
 
     def steps(self, setting):
         return self.make(setting)
@@ -132,16 +134,23 @@ def _error(setting):
     return [_bench(setting, "error", csv="error.csv"), Step(page)]
 
 
-def _later(command, *more):
-    """A command of which only the name is known here: it gets the options that its help offers."""
+def _check(setting):
+    return [_bench(setting, "check", "--repeat", "1", "--peer-seconds", "20", csv="check.csv")]
 
-    def make(setting):
-        offered = setting.help_of("nearfit-bench", command)
-        options = [word for option, word in (("--shared", str(setting.shared)), ("--clock", "thread")) if option in offered
-                   for word in (option, word)]
-        return [_bench(setting, command, *options, *more, csv=f"{command}.csv")]
 
-    return make
+def _paper(setting):
+    # Of each tick: drawn, and too long to keep.
+    samples = str(setting.folder / "paper_force.csv")
+    plots = [PYTHON, str(setting.root / "tests" / "bench" / "paper_plots.py"), str(_bench_file(setting, "paper.csv")), "--samples",
+             samples, "--out", str(_bench_file(setting, ""))]
+    return [_bench(setting, "paper", "--shared", str(setting.shared), "--clock", "thread", "--samples", samples, csv="paper.csv"),
+            Step(plots)]
+
+
+def _hour(setting):
+    csv, picture = (str(_bench_file(setting, f"window_hour.{kind}")) for kind in ("csv", "png"))
+    program = [str(setting.bin / "nearfit-bench-window"), "hour", *_busy(setting), "--minutes", "60", "--csv", csv]
+    return [Step(XVFB + program, may_miss=True), Step([PYTHON, str(setting.root / "tests" / "bench" / "hour_plot.py"), csv, picture])]
 
 
 def _window(setting):
@@ -151,13 +160,15 @@ def _window(setting):
 
 
 def _stress_part(name, minutes, *options, file="", pictures=(), draw=None, may_miss=False):
-    file = f"stress/results/{file or f'{name}.csv'}"
+    """Its command is the first word of its name."""
+    file = f"stress/results/{file or name.replace('-', '_') + '.csv'}"
+    command = name.partition("-")[0]
 
     def make(setting):
-        steps = [Step([str(setting.bin / "nearfit-stress"), name, *options], output=setting.results / file, may_miss=may_miss)]
+        steps = [Step([str(setting.bin / "nearfit-stress"), command, *options], output=setting.results / file, may_miss=may_miss)]
         return steps + (draw(setting) if draw else [])
 
-    return Part(name, minutes, (file,), make, pictures, "nearfit-stress", name)
+    return Part(name, minutes, (file,), make, pictures, "nearfit-stress", command)
 
 
 def _draw_limit(setting):
@@ -183,8 +194,8 @@ PARTS = (
     _bench_part("query_paper", 3, "query", "--clock", "thread", "--scenes", PAPER, uses_shared=True),
     _bench_part("query_generated", 4, "query", "--clock", "thread"),
     _bench_part("query_flats", 3, "query", "--clock", "thread", "--scenes", "peg-hole"),
-    Part("paper", 5, ("bench/results/paper.csv",), _later("paper"), command="paper"),
-    Part("check", 5, ("bench/results/check.csv",), _later("check", "--repeat", "1", "--peer-seconds", "20"), command="check"),
+    Part("paper", 5, ("bench/results/paper.csv",), _paper, ("bench/results/paper_*.png",), command="paper"),
+    Part("check", 5, ("bench/results/check.csv",), _check, command="check"),
     _bench_part("path", 3, "path", uses_shared=True),
     _bench_part("suggest", 7, "suggest", may_miss=True),
     _bench_part("verdicts", 3, "verdicts", uses_shared=True),
@@ -202,19 +213,30 @@ PARTS = (
     Part("round-trip", 3, ("usb/results/round_trip.csv",), _round_trip, program="nearfit-emulate"),
     Part("evidence", 10, ("evidence/results/evidence.csv", "evidence/results/goals.json", "evidence/results/README.md"), _evidence,
          ("evidence/results/*.png",), program="nearfit-cli"),
-    _stress_part("hand", 16, "--mode", "proxy", "--ticks", "10000000", "--certify", "10", "--threads", "2"),
+    _stress_part("hand", 9, "--mode", "proxy", "--ticks", "4000000", "--certify", "10", "--threads", "2"),
     _stress_part("rest", 5, "--mode", "proxy", may_miss=True),
     _stress_part("limit", 2, "--mode", "proxy", may_miss=True, pictures=("stress/results/limit.png",), draw=_draw_limit),
     _stress_part("hours", 4, "--mode", "proxy", "--hours", "8", may_miss=True),
-    _stress_part("oracle", 5, "--poses", "1000000", "--threads", "2", file="oracle.txt"),
+    _stress_part("hand-springs", 2, "--mode", SPRINGS, "--ticks", "200000", "--certify", "none", "--threads", "2", may_miss=True),
+    # Its usual periods are those of 5,000, 2,000, 1,000, 500, 200 and 100 Hz.
+    _stress_part("rest-springs", 3, "--mode", SPRINGS, "--seconds", "2", may_miss=True),
+    _stress_part("limit-springs", 2, "--mode", SPRINGS, may_miss=True),
+    _stress_part("hours-springs", 2, "--mode", SPRINGS, "--hours", "1", may_miss=True),
+    _stress_part("oracle", 3, "--poses", "500000", "--threads", "2", file="oracle.txt"),
+    Part("window-hour", 63, ("bench/results/window_hour.csv",), _hour, ("bench/results/window_hour.png",),
+         program="nearfit-bench-window", command="hour", is_apart=True),
 )
 
 
 def chosen(names):
-    """Parts whose names begin with one of `names`, which have commas between; all where there is none. ValueError for a name that no
-    part begins with."""
+    """Parts whose names begin with one of `names`, which have commas between; all but those apart where there is none. ValueError for
+    a name that no part begins with."""
     starts = [name.strip() for name in names.split(",") if name.strip()]
     for start in starts:
-        if not any(part.name.startswith(start) for part in PARTS):
+        if not any(_is_meant(part, start) for part in PARTS):
             raise ValueError(f'no part begins with "{start}"; choose from {", ".join(part.name for part in PARTS)}')
-    return [part for part in PARTS if not starts or any(part.name.startswith(start) for start in starts)]
+    return [part for part in PARTS if (any(_is_meant(part, start) for start in starts) if starts else not part.is_apart)]
+
+
+def _is_meant(part, start):
+    return part.name == start if part.is_apart else part.name.startswith(start)

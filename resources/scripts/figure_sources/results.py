@@ -90,6 +90,9 @@ class Results:
             self._tables[file] = Table(file, self.text(file))
         return self._tables[file]
 
+    def has(self, file):
+        return (self.root / file).is_file()
+
     def text(self, file):
         try:
             return (self.root / file).read_text(encoding="utf-8")

@@ -10,7 +10,8 @@ scene: names must be equal, matrices to 1e-9 (metres; rotations as numbers), col
 share their triangles in the scene must share them in the file. Prints a row for each format and ends with 1 if one of them
 differs. STEP is read by OpenCASCADE's Python bindings, of another version than the exporter's, glTF and 3MF by trimesh, URDF by
 the standard library; glTF is checked by the validator of its makers, without which (--no-validator) nothing says that it is
-valid. --csv writes the rows for machines; results that are kept are of a clean revision.
+valid. --csv writes the rows for machines; results that are kept are of a clean revision: tests/app/export/results/read_back.csv, of which
+resources/scripts/figures makes the table in resources/docs/cli.md.
 """
 import argparse
 import csv
@@ -297,6 +298,7 @@ def main():
                          "validator": validator and f"gltf-validator {validator}", "validator_errors": errors,
                          "validator_warnings": warnings, "right": "yes" if is_right else "no"})
         if given.csv:
+            given.csv.parent.mkdir(parents=True, exist_ok=True)
             with given.csv.open("w", newline="", encoding="utf-8") as out:
                 writer = csv.DictWriter(out, rows[0].keys(), lineterminator="\n")
                 writer.writeheader()

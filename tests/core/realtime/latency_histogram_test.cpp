@@ -46,6 +46,26 @@ TEST(LatencyHistogram, PercentilesAreUpperBoundsWithinOnePercentOfSortedData) {
   EXPECT_EQ(h.count(), 50000U);
 }
 
+TEST(LatencyHistogram, SinceHoldsWhatWasRecordedAfterTheCopyAlone) {
+  LatencyHistogram h;
+  for (int i = 0; i < 1000; ++i)
+    h.record(5e-3);
+  const LatencyHistogram earlier = h;
+  EXPECT_EQ(h.since(earlier).count(), 0U);
+  EXPECT_EQ(h.since(earlier).max(), 0.0);
+  for (int i = 0; i < 99; ++i)
+    h.record(20e-6);
+  h.record(80e-6);
+  const LatencyHistogram later = h.since(earlier);
+  EXPECT_EQ(later.count(), 100U);
+  EXPECT_NEAR(later.mean(), 20.6e-6, 1e-9);
+  EXPECT_NEAR(later.percentile(0.99), 20e-6, 0.0101 * 20e-6);
+  EXPECT_GE(later.max(), 80e-6);
+  EXPECT_LE(later.max(), 1.0101 * 80e-6);
+  h.record(9e-3);
+  EXPECT_EQ(h.since(earlier).max(), 9e-3) << "the longest of all is known exactly";
+}
+
 TEST(LatencyHistogram, NoPercentileIsTooGoodForAnyDurationOfItsRange) {
   for (double duration = 1e-8; duration < 200.0; duration *= 1.0007) {
     LatencyHistogram h;

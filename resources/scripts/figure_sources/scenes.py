@@ -1,0 +1,121 @@
+"""Tables of whole scenes and documents: checks, verdicts, paths, suggestions, imports, and the hour with the window open."""
+
+import common as c
+import numbers_text as n
+
+UNITS = {"s": 1e6, "ms": 1e3, "us": 1.0}
+
+
+def _of_unit(value, unit):
+    if unit in UNITS:
+        return n.time(UNITS[unit] * value)
+    return n.plain(value) if unit in ("", "1", "x") else f"{n.plain(value)} {unit}"
+
+
+def _met(text):
+    return "**missed**" if text.lower() == "no" else "met" if text.lower() == "yes" else text
+
+
+def _goal(row):
+    said = _met(row["met"])
+    try:
+        return f"{said} ({_of_unit(float(row['goal']), row['unit'])})"
+    except ValueError:
+        return said
+
+
+@c.needs("tests/bench/results/check.csv")
+def checks(results):
+    """All figures of the checks; `worst` is the worst of the turns."""
+    rows, last = [], ""
+    for row in results.bench("check").where():
+        name = f"`{row['scene']}` ({n.count(float(row['parts']))} parts, {n.count(float(row['triangles']))} triangles)"
+        rows.append(["" if name == last else name, f"`{row['method']}`", row["figure"], _of_unit(float(row["median"]), row["unit"]),
+                     _of_unit(float(row["worst"]), row["unit"]), _goal(row), row["remark"]])
+        last = name
+    return n.table(["scene", "method", "figure", "median", "worst", "goal", "remark"], rows, right_from=9)
+
+
+@c.needs("tests/bench/results/verdicts.csv")
+def verdicts(results):
+    table = results.bench("verdicts")
+    rows = [[row["scene"], n.count(float(row["pairs"])), n.count(float(row["agree"])), n.plain(float(row["worst_distance_difference_m"])),
+             *(n.count(float(row[k])) for k in ("clear", "near", "touching", "clashes", "contained"))] for row in table.where()]
+    return n.table(["scene", "pairs", "agree", "largest difference of distance [m]", "clear", "near", "touching", "clashes", "contained"], rows)
+
+
+@c.needs("tests/bench/results/path.csv")
+def paths(results):
+    rows = [[f"`{row['scene']}`", n.count(float(row["poses"])), n.count(float(row["triangles"])),
+             n.time(1e6 * float(row["certified_s"])), n.time(1e6 * float(row["verified_s"])), n.plain(float(row["ratio"])),
+             f"{n.count(float(row['meetings']))} of {n.count(float(row['places']))}", _met(row["met"])]
+            for row in results.bench("path").where()]
+    return n.table(["path", "poses", "triangles", "certified in", "verified in", "ratio", "places where parts meet", "goal"], rows)
+
+
+@c.needs("tests/bench/results/suggest.csv")
+def suggestions(results):
+    rows = [[row["scene"], f"{row['found']} of {row['seeds']}", n.time(1e6 * float(row["p50_s"])), n.time(1e6 * float(row["max_s"])),
+             f"{_met(row['met'])} ({row['goal']})"] for row in results.bench("suggest").where()]
+    return n.table(["puzzle", "seeds that find a path", "p50", "longest", "goal"], rows)
+
+
+DOCUMENT_FIGURES = ("file to ready to feel", "cache to ready to feel", "OpenCASCADE alone", "ratio to OpenCASCADE",
+                    "memory in all a triangle")
+
+
+@c.needs("tests/bench/results/import.csv")
+def documents(results):
+    table = results.bench("import")
+    rows = []
+    for document in dict.fromkeys(row["document"] for row in table.where()):
+        mine = {row["figure"]: row for row in table.where(document=document)}
+        first = next(iter(mine.values()))
+        cells = []
+        for figure in DOCUMENT_FIGURES:
+            row = mine.get(figure)
+            if not row:
+                cells.append("-")
+                continue
+            said = " **missed**" if _met(row["met"]) == "**missed**" else ""
+            cells.append(f"{_of_unit(float(row['median']), row['unit'])} ({_of_unit(float(row['max']), row['unit'])}){said}")
+        rows.append([f"`{document}`", n.count(float(first["placed_triangles"])), *cells])
+    return n.table(["document", "triangles placed", "file to ready: median (max)", "from the cache", "OpenCASCADE alone",
+                    "ratio to it", "memory a triangle"], rows)
+
+
+@c.needs("tests/bench/results/window_hour.csv")
+def hour(results):
+    """The first, the median and the worst minute of an open window."""
+    table = results.bench("window_hour")
+    minutes = table.numbers("minute")
+    rows = []
+    for column, what, unit in (("memory_MB", "resident memory", "MB"), ("late_p50_us", "lateness, p50", "us"),
+                               ("late_p99_us", "p99", "us"), ("late_p99_9_us", "p99.9", "us"), ("late_max_us", "max", "us"),
+                               ("tick_p99_us", "tick, p99", "us"), ("overruns", "ticks left out", "")):
+        values = table.numbers(column)
+        worst = max(range(len(values)), key=values.__getitem__)
+        rows.append([what, *(_of_unit(v, unit) for v in (values[0], sorted(values)[len(values) // 2], values[worst], values[-1])),
+                     f"{minutes[worst]:.0f}"])
+    return n.table([f"{max(minutes):.0f} minutes, {n.count(sum(table.numbers('ticks')))} ticks, in contact in "
+                    f"{n.plain(100 * sum(table.numbers('in_contact')) / len(minutes))} % of the snapshots shown", "first row", "median", "worst",
+                    "last", "worst at minute"], rows)
+
+
+READ_BACK = "tests/app/export/results/read_back.csv"
+
+
+@c.needs(READ_BACK, command="tests/app/export/read_back.py")
+def read_back(results):
+    rows = []
+    for row in results.table(READ_BACK).where():
+        errors = f"{row['validator_errors']} errors, {row['validator_warnings']} warnings ({row['validator']})" if row["validator"] else "none"
+        rows.append([f"`.{row['format']}`", row["reader"], row["parts"], row["names_equal"], row["max_pose_error"], row["colours_differing"],
+                     row["shapes_not_shared"], errors, "right" if row["right"] == "yes" else "**not right**"])
+    writers = ", ".join(sorted({f"{row['writer']} at `{row['revision']}`" for row in results.table(READ_BACK).where()}))
+    return n.table([f"format, written by {writers}", "read by", "parts", "names equal", "poses off by at most", "colours that differ",
+                    "shapes not shared", "validator", "outcome"], rows, right_from=9)
+
+
+FIGURES = {"read back": read_back, "checks": checks, "verdicts": verdicts, "paths": paths, "suggestions": suggestions, "documents": documents,
+           "window hour": hour}
