@@ -7,7 +7,7 @@ nearfit_packages=(
   libcgal-dev libboost-dev libompl-dev libusb-1.0-0-dev libqcustomplot-dev
   zlib1g-dev libocct-data-exchange-dev libtbb-dev libfontconfig-dev lib3mf-dev liburdfdom-dev libseccomp-dev
 )
-nearfit_test_packages=(xvfb xauth libgl1-mesa-dri umockdev libumockdev-dev python3 git)
+nearfit_test_packages=(xvfb xauth libgl1-mesa-dri umockdev libumockdev-dev python3 python3-dev python3-venv git)
 # For ./test --all and tests/fuzz/run: sanitizers, formatting and clang-tidy.
 nearfit_check_packages=(clang-19 libclang-rt-19-dev llvm-19 clang-format-19 clang-tidy-19)
 # For tests/usb/qemu/run alone.
