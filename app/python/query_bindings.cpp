@@ -27,8 +27,7 @@ constexpr std::size_t kInterruptiblePoses = 32;
 /// Minima at poses, as Python holds them.
 struct Lmds {
   MinimaTable table;
-  /// Keeps the names; null for those of a pose alone that was taken out of many.
-  std::shared_ptr<const PartQueries> queries;
+  std::shared_ptr<const std::vector<std::string>> names;  ///< Of the other parts.
 };
 
 template <class Column>
@@ -65,7 +64,7 @@ Lmds lmdsAt(const Lmds& lmds, std::int64_t index) {
   const auto at = static_cast<std::size_t>(pose);
   const auto begin = static_cast<std::size_t>(all.offsets[at]),
              end = static_cast<std::size_t>(all.offsets[at + 1]);
-  Lmds one{.table = {}, .queries = lmds.queries};
+  Lmds one{.table = {}, .names = lmds.names};
   MinimaTable& table = one.table;
   table.offsets.push_back(static_cast<std::int64_t>(end - begin));
   table.isComplete.push_back(all.isComplete[at]);
@@ -105,7 +104,7 @@ using Poses = std::span<const RigidTransform>;
 
 Lmds lmdsOf(HeldScene& scene, const std::string& part, const ArrayLike& poses, double cutoff, bool isTracked,
             std::size_t threads) {
-  Lmds lmds{.table = {}, .queries = scene.queries(part)};
+  Lmds lmds{.table = {}, .names = scene.queries(part)->sharedNames()};
   lmds.table = ask(scene, part, poses, {.isTracked = isTracked, .threads = threads},
                    [cutoff](PartQueries& queries, Poses where, const BatchOptions& options) {
                      return queries.minima(where, cutoff, options);
@@ -181,7 +180,7 @@ void bindLmds(nb::module_& module) {
           "parts", [](const Lmds& l) { return columnView(l, l.table.others); },
           "(n,) int32: the other part, as an index of part_names.")
       .def_prop_ro(
-          "part_names", [](const Lmds& l) { return l.queries->otherNames(); }, "Names of the other parts.")
+          "part_names", [](const Lmds& l) { return *l.names; }, "Names of the other parts.")
       .def_prop_ro("features", &featuresView,
                    "(n, 2) uint8: what carries the fixed and the moving point: 0 vertex, 1 edge, 2 face.")
       .def_prop_ro(

@@ -51,6 +51,7 @@ PartQueries::PartQueries(const Scene& scene, PartId part, const ProgressCallback
   if (!hasTriangles(scene.get(part)))
     throw UsageError(scene.get(part).name, "it has no triangles", "give it a mesh");
   std::vector<PartGeometryPtr> geometries{part_};
+  std::vector<std::string> names;
   std::map<const PartGeometry*, std::shared_ptr<ComponentsOnDemand>> components;
   const auto componentsOf = [&components](const PartGeometry* geometry) {
     std::shared_ptr<ComponentsOnDemand>& shared = components[geometry];
@@ -66,9 +67,10 @@ PartQueries::PartQueries(const Scene& scene, PartId part, const ProgressCallback
                        .isAtOrigin = isIdentity(other->worldFromPart),
                        .centre = {},
                        .radius = 0.0});
-    names_.push_back(other->name);
+    names.push_back(other->name);
     geometries.push_back(other->geometry);
   }
+  names_ = std::make_shared<const std::vector<std::string>>(std::move(names));
   prepareHierarchies(geometries, progress);
   constexpr double kHalf = 0.5;
   partCentre_ = part_->tree().centre();

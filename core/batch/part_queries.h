@@ -46,7 +46,9 @@ class PartQueries {
   PartQueries(const Scene& scene, PartId part, const ProgressCallback& progress = {});
 
   /// Names of the other parts, in scene order.
-  const std::vector<std::string>& otherNames() const noexcept { return names_; }
+  const std::vector<std::string>& otherNames() const noexcept { return *names_; }
+  /// The same, for results that outlive this.
+  std::shared_ptr<const std::vector<std::string>> sharedNames() const noexcept { return names_; }
 
   /// All minima within the cutoff.
   /// @param cutoff  [m]; finite, > 0.
@@ -114,7 +116,7 @@ class PartQueries {
   glm::dvec3 partCentre_{0.0};  ///< Of a sphere that holds the part, in its frame [m].
   double partRadius_ = 0.0;     ///< [m]
   std::vector<Other> others_;
-  std::vector<std::string> names_;
+  std::shared_ptr<const std::vector<std::string>> names_;
   WorkSpaces<Space> spaces_;
 };
 
