@@ -1,8 +1,6 @@
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,16 +9,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
-#include "app/cli/scene_part.h"
-#include "core/base/error.h"
-#include "core/files/atomic_write.h"
-#include "core/files/input_file.h"
-#include "core/files/sha256.h"
-#include "core/path/certificate.h"
-#include "core/path/path_certifier.h"
-#include "core/path/path_file.h"
-#include "core/path/path_verifier.h"
-#include "core/scene/scene_file.h"
+#include "core/path/path_certification.h"
 #include "core/text/json_text.h"
 
 namespace nearfit::cli {
@@ -45,75 +34,48 @@ constexpr const char* kCertifyFooter =
     "Exit code 3, and no certificate, if the path is not proven free; the first such place is printed.\n"
     "Example: nearfit-cli certify in.nfpath fit.nearfit -o in.nfcert --separation 1e-5";
 
-/// Throws UsageError if an output would replace an input.
-void checkCertificateTarget(const CertifyOptions& options, const Scene& scene) {
-  std::vector<std::filesystem::path> inputs = partFiles(scene);
-  inputs.insert(inputs.end(), {options.path, options.scene});
-  checkTarget(options.out, inputs);
-}
-
 void printVerdict(const VerdictJson& verdict, const std::string& sentence, bool isJson) {
   printCacheWarnings();
   print(isJson ? prettyJson(verdict) : oneLine(sentence) + "\n");
   flushOutput();
 }
 
-VerdictJson unprovenJson(const Scene& scene, const UnprovenPlace& place, double separation) {
-  return {{"free", false},
-          {"separation", separation},
-          {"time", place.time},
-          {"part", scene.get(place.part).name},
-          {"other", scene.get(place.other).name},
-          {"distance", place.distance},
+VerdictJson unprovenJson(const PathCertification& found) {
+  const UnprovenPlace& place = *found.unproven;
+  return {{"free", false},           {"separation", found.separation}, {"time", place.time},
+          {"part", found.part},      {"other", found.other},           {"distance", place.distance},
           {"inside", place.isInside}};
 }
 
-std::string unprovenSentence(const Scene& scene, const UnprovenPlace& place, double separation) {
-  const std::string &part = scene.get(place.part).name, &other = scene.get(place.other).name;
+std::string unprovenSentence(const PathCertification& found) {
+  const UnprovenPlace& place = *found.unproven;
   if (place.isInside) {
     return fmt::format(
-        "not certified: \"{}\" meets \"{}\", or one is inside the other, at the start of the path", part,
-        other);
+        "not certified: \"{}\" meets \"{}\", or one is inside the other, at the start of the path",
+        found.part, found.other);
   }
   return fmt::format(
       "not certified: at {:.6g} s \"{}\" and \"{}\" are {:.6g} m apart, which does not prove {:.6g} m",
-      place.time, part, other, place.distance, separation);
+      place.time, found.part, found.other, place.distance, found.separation);
 }
 
 void runCertify(const CertifyOptions& options) {
   if (options.separation) checkPositive("--separation", *options.separation);
-  if (!isJsonFile(options.path))
-    throw FileError(options.path, "it is not a path file",
-                    "make one of a recording (nearfit-cli path RECORDING SCENE -o OUT.nfpath)");
-  const std::string pathFileSha256 = sha256OfFile(options.path);
-  const AssemblyPath path = readPathFile(options.path);
-  const std::string sceneSha256 = sha256OfFile(options.scene);
-  const Scene scene = readSceneFile(options.scene);
-  checkCertificateTarget(options, scene);
-  const double separation = options.separation ? *options.separation : defaultSeparation(scene, path);
-  const PathProof proof = PathCertifier(scene, path, separation).prove(path);
-  if (!proof.isFree()) {
-    printVerdict(unprovenJson(scene, *proof.unproven, separation),
-                 unprovenSentence(scene, *proof.unproven, separation), options.isJson);
+  const PathCertification found = certifyPathFile(
+      {.path = options.path, .scene = options.scene, .certificate = options.out}, options.separation);
+  if (!found.isFree()) {
+    printVerdict(unprovenJson(found), unprovenSentence(found), options.isJson);
     throw NegativeVerdict();
   }
-  Certificate certificate = certificateOf(scene, path, proof, sceneSha256);
-  certificate.sceneFile = certifiedName(options.scene, options.out);
-  certificate.pathFile = certifiedName(options.path, options.out);
-  certificate.pathFileSha256 = pathFileSha256;
-  atomicWrite(options.out, certificateText(certificate));
-  std::size_t stretches = 0;
-  for (const PairProof& pair : proof.pairs)
-    stretches += pair.stretches.size();
   printVerdict(
       {{"free", true},
-       {"separation", separation},
-       {"poses", path.poses.size()},
-       {"pairs", proof.pairs.size()},
-       {"stretches", stretches},
+       {"separation", found.separation},
+       {"poses", found.poses},
+       {"pairs", found.pairs},
+       {"stretches", found.stretches},
        {"certificate", options.out}},
       fmt::format("certified: {} poses keep {:.6g} m from each other part, by {} stretches of {} pairs",
-                  path.poses.size(), separation, stretches, proof.pairs.size()),
+                  found.poses, found.separation, found.stretches, found.pairs),
       options.isJson);
 }
 
@@ -132,97 +94,28 @@ constexpr const char* kVerifyFooter =
     "Exit code 3 if anything differs or is not proven; what it is is printed.\n"
     "Example: nearfit-cli verify in.nfcert";
 
-/// Throws NegativeVerdict after saying why.
-[[noreturn]] void refuse(const std::string& problem, bool isJson) {
-  printVerdict({{"verified", false}, {"problem", problem}}, "refused: " + problem, isJson);
-  throw NegativeVerdict();
-}
-
-/// Calls `read`. What is wrong with a file's content is a reason to refuse.
-template <class Read>
-auto orRefuse(const Read& read, bool isJson) -> decltype(read()) {
-  try {
-    return read();
-  } catch (const FileError& e) {
-    refuse(e.what(), isJson);
-  }
-}
-
-/// The file that the certificate names. Throws FileError, with what to give instead, unless an ordinary file is there.
-std::filesystem::path namedInput(const VerifyOptions& options, const std::string& name, const char* instead) {
-  const std::filesystem::path file = fileOfCertifiedName(name, options.certificate);
-  try {
-    static_cast<void>(InputFile(file));
-  } catch (const FileError& e) {
-    throw FileError(e.where(), "the certificate names this file, and " + e.problem(), instead);
-  }
-  return file;
-}
-
-/// The scene to prove the certificate in. Throws UsageError if neither names one.
-std::filesystem::path sceneToVerify(const VerifyOptions& options, const Certificate& certificate) {
-  if (!options.scene.empty()) return options.scene;
-  if (!certificate.sceneFile.empty())
-    return namedInput(options, certificate.sceneFile,
-                      "say where the scene is: nearfit-cli verify CERT SCENE");
-  throw UsageError(options.certificate,
-                   certificate.sceneSha256.empty()
-                       ? "it holds no hash of a scene file: the scene was not saved when it was made"
-                       : "it does not name its scene file",
-                   "give the scene: nearfit-cli verify CERT SCENE");
-}
-
-/// Hash of the scene file, or a refusal if it is not the certified one.
-std::string checkedSceneHash(const std::filesystem::path& scene, const Certificate& certificate,
-                             bool isJson) {
-  const bool isTooLarge = InputFile(scene).size() > kMaxSceneFileBytes;
-  const std::string sha256 = isTooLarge ? std::string() : sha256OfFile(scene);
-  if (isTooLarge || (!certificate.sceneSha256.empty() && certificate.sceneSha256 != sha256))
-    refuse("the scene file is not the one that was certified: its bytes differ", isJson);
-  return sha256;
-}
-
-/// The path file's path, or std::nullopt if none is to be checked; a refusal if it is not the certified one.
-std::optional<AssemblyPath> pathToVerify(const VerifyOptions& options, const Certificate& certificate) {
-  std::filesystem::path file = options.path;
-  if (file.empty()) {
-    if (options.isWithoutPath || certificate.pathFile.empty()) return std::nullopt;
-    file =
-        namedInput(options, certificate.pathFile,
-                   "say where the path is: nearfit-cli verify CERT SCENE PATH; or leave it out: --no-path");
-  }
-  // A file that is not there is a failure, not a verdict.
-  static_cast<void>(InputFile(file));
-  AssemblyPath path = orRefuse([&] { return readPathFile(file); }, options.isJson);
-  if (!certificate.pathFileSha256.empty() && sha256OfFile(file) != certificate.pathFileSha256)
-    refuse("the path file is not the one that was certified: its bytes differ", options.isJson);
-  return path;
-}
-
 void runVerify(const VerifyOptions& options) {
-  const std::vector<char> text = readWholeFile(options.certificate);
-  const Certificate certificate = orRefuse(
-      [&] { return parseCertificate({text.data(), text.size()}, options.certificate); }, options.isJson);
-  const std::filesystem::path sceneFile = sceneToVerify(options, certificate);
-  const std::optional<AssemblyPath> path = pathToVerify(options, certificate);
-  const std::string sceneSha256 = checkedSceneHash(sceneFile, certificate, options.isJson);
-  std::vector<std::filesystem::path> changed;
-  const Scene scene = readSceneFile(sceneFile, {}, &changed);
-  if (!changed.empty()) refuse("the mesh file " + changed.front().string() + " was changed", options.isJson);
-  const Verification verified = verifyCertificate(certificate, scene, sceneSha256, path);
-  if (!verified.isProven()) refuse(verified.problem, options.isJson);
+  const PathVerification found = verifyCertificateFile({.certificate = options.certificate,
+                                                        .scene = options.scene,
+                                                        .path = options.path,
+                                                        .isWithoutPath = options.isWithoutPath});
+  if (!found.isProven()) {
+    printVerdict({{"verified", false}, {"problem", found.problem}}, "refused: " + found.problem,
+                 options.isJson);
+    throw NegativeVerdict();
+  }
   // Without it names, meshes and places of all parts, to the last bit, say that the scene is the same.
-  const bool hasSceneHash = !certificate.sceneSha256.empty();
   printVerdict(
       {{"verified", true},
-       {"separation", certificate.separation},
-       {"poses", certificate.path.poses.size()},
-       {"stretches", verified.stretches},
-       {"scene_file_hashed", hasSceneHash},
-       {"path_file_checked", path.has_value()}},
-      fmt::format("verified: {} poses keep {:.6g} m from each other part, by {} stretches proven anew{}",
-                  certificate.path.poses.size(), certificate.separation, verified.stretches,
-                  hasSceneHash ? "" : "; the certificate holds no hash of a scene file, but of all meshes"),
+       {"separation", found.separation},
+       {"poses", found.poses},
+       {"stretches", found.stretches},
+       {"scene_file_hashed", found.hasSceneHash},
+       {"path_file_checked", found.isPathChecked}},
+      fmt::format(
+          "verified: {} poses keep {:.6g} m from each other part, by {} stretches proven anew{}", found.poses,
+          found.separation, found.stretches,
+          found.hasSceneHash ? "" : "; the certificate holds no hash of a scene file, but of all meshes"),
       options.isJson);
 }
 

@@ -53,18 +53,15 @@ std::vector<PartId> partsNamed(const Scene& scene, const std::vector<std::string
 }
 
 void runExport(const ExportOptions& options) {
-  const auto kind = exportKindOf(options.out);
-  if (!kind)
-    throw UsageError(options.out, "its suffix is not that of a known format",
-                     "use .json, .csv, .stl, .obj, .ply, .step, .glb, .3mf or .urdf");
-  if (!hasChosenParts(*kind) && !options.parts.empty())
+  const ExportKind kind = knownExportKindOf(options.out);
+  if (!hasChosenParts(kind) && !options.parts.empty())
     throw UsageError("--part", "a placement always has all parts", "leave it out, or write a mesh");
-  if (isAssembly(*kind) && !hasUnitOfChoice(*kind) && options.hasUnit)
+  if (isAssembly(kind) && !hasUnitOfChoice(kind) && options.hasUnit)
     throw UsageError("--unit", "this format has a unit of its own", "leave it out");
-  if (*kind != ExportKind::AssemblyStep && options.hasSchema)
+  if (kind != ExportKind::AssemblyStep && options.hasSchema)
     throw UsageError("--schema", "only STEP files have one", "leave it out");
   SceneExport what;
-  what.kind = *kind;
+  what.kind = kind;
   what.metresPerUnit = parseUnit(options.unit);
   what.schema = options.schema == "ap242" ? StepSchema::Ap242 : StepSchema::Ap214;
   const std::filesystem::path sceneFile = options.scene;

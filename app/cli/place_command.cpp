@@ -24,6 +24,7 @@
 #include "core/report/mesh_export.h"
 #include "core/report/placement_export.h"
 #include "core/scene/scene_file.h"
+#include "core/servo/path_run.h"
 #include "core/servo/start_apart.h"
 #include "device/simulated/replay_device.h"
 #include "device/simulated/simulated_device.h"
@@ -99,18 +100,8 @@ void takeInHand(Scene& scene, const PlaceOptions& options, const RigidTransform*
   if (part == nullptr) {
     throw UsageError(options.scene, "there is no part \"" + options.part + "\"", knownNames(scene));
   }
-  if (scene.isLocked(*part)) {
-    throw UsageError(options.scene, "part \"" + options.part + "\" is locked",
-                     "unlock it, or choose another");
-  }
-  if (!part->isVisible) {
-    throw UsageError(options.scene, "part \"" + options.part + "\" is hidden, so it would feel nothing",
-                     "show it, or choose another");
-  }
-  Part placed = *part;
-  if (start != nullptr) placed.worldFromPart = *start;
-  scene.replace(placed);
-  scene.setMovingPart(placed.id);
+  scene =
+      withInHandAt(scene, part->id, start != nullptr ? std::optional(*start) : std::nullopt, options.scene);
 }
 
 /// Throws before the run, not after it, if an output file cannot be written.

@@ -11,7 +11,7 @@
 #include "app/cli/device_armer.h"
 #include "app/cli/interrupt.h"
 #include "core/base/error.h"
-#include "core/servo/scene_tracker.h"
+#include "core/servo/path_run.h"
 #include "device/servo/servo_loop.h"
 #include "device/simulated/simulated_device.h"
 #include "device/thread/monotonic_clock.h"
@@ -136,44 +136,18 @@ bool isOver(const PlaceJob& job, Nanoseconds begin) {
 }  // namespace
 
 PlaceResult placeFast(PlaceJob job) {
-  using Clock = std::chrono::steady_clock;
   const InterruptGuard guard;
   PlaceResult result = beginning(job);
-  PathDevice device(std::move(job.path));
-  SceneTracker tracker;
-  tracker.setScene(std::move(job.scene));
-  TrackedScene tracked;
-  ServoTick tick;
-  const auto snapshot = std::make_unique<ServoSnapshot>();
-  HandleInput handle;
-  const SearchReach reach = searchReach(job.parameters.haptics);
-  const bool isProxy = job.parameters.haptics.mode == HapticMode::Proxy;
-  device.start(result.end);
-  while (!InterruptGuard::isInterrupted() && device.readHandle(handle)) {
-    // There is no search thread: what is due is searched before the tick, around the part. With springs the
-    // part is where the hand wants it, and nothing is late.
-    TickObservation observation = observationOf(*snapshot);
-    observation.worldFromPart = isProxy ? result.end : handle.pose;
-    if (result.ticks == 0) observation.worldFromHand.reset();
-    tracker.update(observation, 1.0);
-    if (result.ticks == 0 || tracker.isDue(reach)) {
-      const Clock::time_point begin = Clock::now();
-      tracker.refresh(reach, tracked);
-      result.refreshTime.record(std::chrono::duration<double>(Clock::now() - begin).count());
-    }
-    const Clock::time_point begin = Clock::now();
-    tick.run(tracked, job.parameters, handle, ServoLoop::kPeriod, *snapshot);
-    device.sendWrench(snapshot->deviceWrench);
-    snapshot->tickTime = std::chrono::duration<double>(Clock::now() - begin).count();
-    snapshot->time = static_cast<double>(result.ticks) * ServoLoop::kPeriod;
-    snapshot->tick = ++result.ticks;
-    result.queryTime.record(snapshot->queryTime);
-    result.tickTime.record(snapshot->tickTime);
-    takeLast(*snapshot, result);
-    take(motionRow(*snapshot), result, job.writer);
-  }
-  result.isInterrupted = device.state() == DeviceState::Armed;
-  device.stop();
+  const auto takeTick = [&](const PathTick& tick) {
+    if (tick.refreshTime) result.refreshTime.record(*tick.refreshTime);
+    result.queryTime.record(tick.snapshot.queryTime);
+    result.tickTime.record(tick.snapshot.tickTime);
+    takeLast(tick.snapshot, result);
+    take(motionRow(tick.snapshot), result, job.writer);
+    return !InterruptGuard::isInterrupted();
+  };
+  result.ticks = runAlongPath(std::move(job.scene), job.parameters, job.path, ServoLoop::kPeriod, takeTick);
+  result.isInterrupted = result.ticks < job.path.size();
   return result;
 }
 

@@ -6,7 +6,6 @@
 
 #include "core/base/error.h"
 #include "core/scene/name_pattern.h"
-#include "core/scene/part_geometry.h"
 
 namespace nearfit::cli {
 
@@ -49,18 +48,6 @@ Scene withInHand(Scene scene, const std::string& part, const std::string& group,
 bool isNameOfPart(const Scene& scene, const std::string& pattern) {
   return std::ranges::any_of(
       scene.parts(), [&pattern](const Scene::PartPtr& part) { return matchesPattern(pattern, part->name); });
-}
-
-std::vector<std::filesystem::path> partFiles(const Scene& scene) {
-  std::vector<std::filesystem::path> files;
-  for (const Scene::PartPtr& part : scene.parts()) {
-    if (!part->geometry) continue;
-    files.push_back(part->geometry->file);
-    if (!part->geometry->companions) continue;
-    for (const CompanionFile& companion : *part->geometry->companions)
-      files.push_back(companion.file);
-  }
-  return files;
 }
 
 }  // namespace nearfit::cli

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <vector>
 
+#include "core/scene/part_files.h"
 #include "core/scene/scene.h"
 
 namespace nearfit::cli {
@@ -22,7 +21,6 @@ Scene withInHand(Scene scene, const std::string& part, const std::string& group,
 /// True if the name of a part matches the pattern.
 bool isNameOfPart(const Scene& scene, const std::string& pattern);
 
-/// The files that the parts were read from, with those that these name: no output may replace one.
-std::vector<std::filesystem::path> partFiles(const Scene& scene);
+using nearfit::partFiles;
 
 }  // namespace nearfit::cli

@@ -1,7 +1,6 @@
 #include "core/path/certificate.h"
 
 #include <map>
-#include <span>
 #include <system_error>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "core/files/sha256.h"
 #include "core/parallel/parallel_for.h"
 #include "core/path/path_file.h"
+#include "core/scene/mesh_hash.h"
 #include "core/text/json_file.h"
 #include "core/text/json_text.h"
 #include "core/text/utf8.h"
@@ -137,15 +137,6 @@ void checkHashAtEnd(std::string_view text, const std::filesystem::path& file) {
 }
 
 }  // namespace
-
-std::string meshSha256(const TriangleMesh& mesh) {
-  const auto hashOf = [](const auto& values) {
-    const auto bytes = std::as_bytes(values);
-    return sha256OfBytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  };
-  return sha256OfBytes(fmt::format("mesh 1 {} {} {} {}", mesh.vertices().size(), hashOf(mesh.vertices()),
-                                   mesh.triangles().size(), hashOf(mesh.triangles())));
-}
 
 std::vector<CertifiedPart> certifiedParts(const PathBodies& bodies) {
   std::vector<CertifiedPart> parts;

@@ -73,9 +73,6 @@ struct Certificate {
   std::vector<CertifiedPair> pairs;
 };
 
-/// SHA-256 of a mesh's geometry: coordinates of its vertices and indices of its triangles, as bits.
-std::string meshSha256(const TriangleMesh& mesh);
-
 /// The parts that a certificate of these bodies is about, in its order. Hashes each geometry once, in parallel.
 std::vector<CertifiedPart> certifiedParts(const PathBodies& bodies);
 

@@ -68,6 +68,12 @@ std::vector<std::string> exportAssembly(const Scene& placed, const SceneExport& 
 
 }  // namespace
 
+ExportKind knownExportKindOf(const std::filesystem::path& file) {
+  if (const auto kind = exportKindOf(file)) return *kind;
+  throw UsageError(file.string(), "its suffix is not that of a known format",
+                   "use .json, .csv, .stl, .obj, .ply, .step, .glb, .3mf or .urdf");
+}
+
 std::optional<MeshFileKind> meshKindOf(ExportKind kind) noexcept {
   switch (kind) {
     case ExportKind::MeshStl:

@@ -32,6 +32,8 @@ std::string_view extensionOf(ExportKind kind) noexcept;
 /// The kind that a file's extension stands for, in any case, also "stp"; std::nullopt if none. Never a map or its histogram: other
 /// kinds have the same extensions.
 std::optional<ExportKind> exportKindOf(const std::filesystem::path& file);
+/// The same, but throws UsageError if the extension is that of no known format.
+ExportKind knownExportKindOf(const std::filesystem::path& file);
 /// The kind of mesh file; std::nullopt for others.
 std::optional<MeshFileKind> meshKindOf(ExportKind kind) noexcept;
 /// True for formats that keep parts apart, with names, groups, colours and poses.

@@ -8,7 +8,7 @@ nearfit_packages=(
   python3 zlib1g-dev libocct-data-exchange-dev libtbb-dev libfontconfig-dev lib3mf-dev liburdfdom-dev libseccomp-dev
 )
 nearfit_test_packages=(
-  xvfb xauth libgl1-mesa-dri umockdev libumockdev-dev python3 git zsh desktop-file-utils appstream shared-mime-info man-db
+  xvfb xauth libgl1-mesa-dri umockdev libumockdev-dev python3 python3-dev python3-venv git zsh desktop-file-utils appstream shared-mime-info man-db
 )
 # For resources/scripts/package.
 nearfit_package_packages=(dpkg-dev file lintian git)

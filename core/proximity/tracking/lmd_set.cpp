@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -34,13 +35,13 @@ template <class Find>
 LmdSet LmdCollector::grow(const BodyPairQuery& query, Find&& find) {
   LmdSet set;
   for (;;) {
-    set.lmds.resize(std::min(capacity_, limit_));
+    found_.resize(std::min(capacity_, limit_));
     const auto start = std::chrono::steady_clock::now();
-    const LmdResult result = find(scratch_, std::span(set.lmds));
+    const LmdResult result = find(scratch_, std::span(found_));
     set.queryTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     set.isComplete = result.status == QueryStatus::Complete;
     if (set.isComplete || capacity_ / kHeadroom >= limit_) {
-      set.lmds.resize(result.count);
+      set.lmds.assign(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(result.count));
       // The bodies may interpenetrate, so there is no lower bound on the min distance.
       markBlocked(query.scene, query.part, query.sceneFromPart, set.lmds, 0.0, scratch_);
       markFarRegions(set.lmds, fromOriginOf(query), query.scene.size() + query.part.size());
@@ -60,16 +61,16 @@ LmdSet LmdCollector::collect(const NormalConeTree& scene, const NormalConeTree& 
 
 LmdSet LmdCollector::collectTracked(const NormalConeTree& scene, const NormalConeTree& part,
                                     const RigidTransform& sceneFromPart, double cutoff) {
-  if (followedScene_ != &scene || followedPart_ != &part) {
-    tracker_.emplace(scene, part);
-    list_ = {};
-    followedScene_ = &scene;
-    followedPart_ = &part;
-  }
-  tracker_->observe(sceneFromPart, 1.0);
-  if (tracker_->isDue(list_, cutoff)) tracker_->refresh(list_, cutoff, scratch_);
+  if (!followed_ || followed_->scene_ != &scene || followed_->part_ != &part) followed_.emplace(scene, part);
+  return collectTracked(*followed_, sceneFromPart, cutoff);
+}
+
+LmdSet LmdCollector::collectTracked(FollowedPair& pair, const RigidTransform& sceneFromPart, double cutoff) {
+  const NormalConeTree &scene = *pair.scene_, &part = *pair.part_;
+  pair.tracker_.observe(sceneFromPart, 1.0);
+  if (pair.tracker_.isDue(pair.list_, cutoff)) pair.tracker_.refresh(pair.list_, cutoff, scratch_);
   return grow({scene, part, sceneFromPart, cutoff}, [&](LmdScratch& scratch, std::span<Lmd> out) {
-    const std::optional<LmdResult> listed = list_.query(sceneFromPart, cutoff, scratch, out);
+    const std::optional<LmdResult> listed = pair.list_.query(sceneFromPart, cutoff, scratch, out);
     return listed ? *listed : findLmds(scene, part, sceneFromPart, cutoff, scratch, out);
   });
 }

@@ -27,6 +27,20 @@ struct LmdSet {
   double queryTime = 0.0;  ///< Duration of the final query alone [s].
 };
 
+/// Two bodies that are followed from pose to pose, with what was searched ahead for them.
+class FollowedPair {
+ public:
+  /// @param scene, part  Must outlive this.
+  FollowedPair(const NormalConeTree& scene, const NormalConeTree& part) noexcept
+      : scene_(&scene), part_(&part), tracker_(scene, part) {}
+
+ private:
+  friend class LmdCollector;
+  const NormalConeTree *scene_, *part_;
+  LmdTracker tracker_;
+  CandidateList list_;
+};
+
 /// Finds complete sets of minima for reports, growing its storage as needed. Allocates: not for servo code.
 class LmdCollector {
  public:
@@ -44,6 +58,8 @@ class LmdCollector {
   /// near a pose. That time is not part of `queryTime`.
   LmdSet collectTracked(const NormalConeTree& scene, const NormalConeTree& part,
                         const RigidTransform& sceneFromPart, double cutoff);
+  /// The same for one of several pairs that are followed by turns.
+  LmdSet collectTracked(FollowedPair& pair, const RigidTransform& sceneFromPart, double cutoff);
 
   /// Marks the minima of a set for whose area of contact another one stands (mergeAreas()), however much work it is.
   /// @param set  From collect() or collectTracked() with the same bodies, pose and cutoff.
@@ -58,9 +74,9 @@ class LmdCollector {
   std::size_t limit_;
   std::size_t capacity_;
   LmdScratch scratch_;
-  std::optional<LmdTracker> tracker_;  ///< For the hierarchies last followed.
-  CandidateList list_;
-  const NormalConeTree *followedScene_ = nullptr, *followedPart_ = nullptr;
+  /// Room for what a query finds. Kept: to make it takes longer than most queries.
+  std::vector<Lmd> found_;
+  std::optional<FollowedPair> followed_;  ///< The hierarchies last followed.
 };
 
 }  // namespace nearfit

@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/files/sha256.h"
+#include "core/scene/mesh_hash.h"
 #include "tests/support/path_scenes.h"
 #include "tests/support/temporary_folder.h"
 

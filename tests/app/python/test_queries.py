@@ -1,0 +1,244 @@
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import nearfit
+from conftest import box, matrix_of, octahedron, random_rows
+
+COLUMNS = ("offsets", "distances", "points_moving", "points_fixed", "normals", "parts", "features", "regions", "blocked",
+           "marginal", "complete")
+
+
+def same(a, b):
+    return all(np.array_equal(getattr(a, name), getattr(b, name)) for name in COLUMNS)
+
+
+def nearest_on_triangle(point, triangle):
+    """Nearest point of a triangle: the foot on its plane if inside, else the best of three sides."""
+    a, b, c = triangle
+    normal = np.cross(b - a, c - a)
+    foot = point - normal * np.dot(point - a, normal) / np.dot(normal, normal)
+    if all(np.dot(np.cross(q - p, foot - p), normal) >= 0 for p, q in ((a, b), (b, c), (c, a))):
+        return foot
+    feet = []
+    for p, q in ((a, b), (b, c), (c, a)):
+        share = np.clip(np.dot(point - p, q - p) / np.dot(q - p, q - p), 0, 1)
+        feet.append(p + share * (q - p))
+    return min(feet, key=lambda foot: np.linalg.norm(point - foot))
+
+
+def segment_distance(p, q, r, s):
+    """Distance of two segments: of each end to the other, and of the lines where both feet are inside."""
+    u, v, w = q - p, s - r, p - r
+    ends = [np.linalg.norm(x - (a + np.clip(np.dot(x - a, d) / np.dot(d, d), 0, 1) * d))
+            for x, a, d in ((p, r, v), (q, r, v), (r, p, u), (s, p, u))]
+    normal = np.cross(u, v)
+    square = np.dot(normal, normal)
+    if square > 1e-24:
+        at, on = np.dot(np.cross(v, w), normal) / square, np.dot(np.cross(u, w), normal) / square
+        if 0 <= at <= 1 and 0 <= on <= 1:
+            ends.append(abs(np.dot(w, normal)) / np.sqrt(square))
+    return min(ends)
+
+
+def brute_distance(fixed, moving):
+    """Min distance of two meshes that are apart, of all pairs of features. Meshes: vertices, triangles."""
+    least = np.inf
+    for (vertices, _), (others, triangles) in ((fixed, moving), (moving, fixed)):
+        for point in vertices:
+            for face in triangles:
+                least = min(least, np.linalg.norm(point - nearest_on_triangle(point, others[face])))
+    sides = [{tuple(sorted((f[i], f[(i + 1) % 3]))) for f in t.tolist() for i in range(3)} for _, t in (fixed, moving)]
+    for a, b in sides[0]:
+        for c, d in sides[1]:
+            least = min(least, segment_distance(fixed[0][a], fixed[0][b], moving[0][c], moving[0][d]))
+    return least
+
+
+def placed(vertices, row):
+    matrix = matrix_of(row)
+    return vertices @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def test_least_distances_are_those_of_all_pairs_of_features(two_bodies):
+    rows = random_rows(30, 7, 0.02, away=0.05)
+    block, (tip, faces) = box((0.04, 0.03, 0.02)), octahedron(0.015)
+    expected = [brute_distance(block, (placed(tip, row), faces)) for row in rows]
+    found = nearfit.distance(two_bodies, "Tip", rows)
+    assert found == pytest.approx(expected, rel=1e-9)
+    minima = nearfit.lmds(two_bodies, "Tip", rows, 0.2)
+    assert len(minima) == 30 and minima.complete.all()
+    # The least of the minima of two solids is their distance.
+    assert [minima[i].distances[0] for i in range(30)] == pytest.approx(expected, rel=1e-9)
+
+
+def test_minima_end_on_both_surfaces_along_their_normals(two_bodies):
+    rows = random_rows(20, 8, 0.02, away=0.05)
+    block, (tip, faces) = box((0.04, 0.03, 0.02)), octahedron(0.015)
+    found = nearfit.lmds(two_bodies, "Tip", rows, 0.2)
+    assert len(found.distances) >= 20
+    for i, row in enumerate(rows):
+        one = found[i]
+        moved = placed(tip, row)
+        for distance, moving, fixed, normal in zip(one.distances, one.points_moving, one.points_fixed, one.normals):
+            on_tip = min(np.linalg.norm(moving - nearest_on_triangle(moving, moved[f])) for f in faces)
+            on_block = min(np.linalg.norm(fixed - nearest_on_triangle(fixed, block[0][f])) for f in block[1])
+            assert max(on_tip, on_block) < 1e-12
+            assert np.linalg.norm(normal) == pytest.approx(1.0, abs=1e-12)
+            assert moving - fixed == pytest.approx(distance * normal, abs=1e-9)
+
+
+@pytest.mark.parametrize("mode", ["cold", "tracked"])
+def test_numbers_are_those_of_the_command_line_to_the_last_bit(saved, cli, json_lines, tmp_path, mode):
+    scene, _, block, tip = saved
+    rows = random_rows(60, 9, 0.02, away=0.03)
+    poses = tmp_path / "poses.csv"
+    # repr() reads back as the same double.
+    poses.write_text("".join(",".join(map(repr, row.tolist())) + "\n" for row in rows))
+    lines = json_lines(cli("lmd", "--unit", "m", block, tip, "--cutoff", "0.03", "--poses", poses, "--mode", mode,
+                           "--stiffness", "250"))
+    found = nearfit.lmds(scene, "Tip", rows, 0.03, tracked=mode == "tracked")
+    wrenches = nearfit.wrench(scene, "Tip", rows, 0.03, 250.0)
+    overlaps = nearfit.overlap(scene, "Tip", rows)
+    assert len(lines) == len(found) == 60
+    assert sum(len(line["lmds"]) for line in lines) > 60
+    for i, line in enumerate(lines):
+        one = found[i]
+        assert one.distances.tolist() == [m["distance"] for m in line["lmds"]]
+        assert one.points_fixed.tolist() == [m["scene"] for m in line["lmds"]]
+        assert one.points_moving.tolist() == [m["part"] for m in line["lmds"]]
+        assert one.regions.tolist() == [m["region"] for m in line["lmds"]]
+        assert one.blocked.tolist() == [m["blocked"] for m in line["lmds"]]
+        assert [[("vertex", "edge", "face")[k] for k in pair] for pair in one.features] == [m["features"] for m in line["lmds"]]
+        assert wrenches[i].tolist() == line["force"] + line["torque"]
+        assert overlaps[i] == (line["overlap"] != "no")
+
+
+def three_bodies():
+    scene = nearfit.Scene()
+    tip = nearfit.Mesh(*octahedron(0.015))
+    scene.add(nearfit.Mesh(*box((0.04, 0.03, 0.02))), "Block", pose=(0.01, 0.002, 0, 0.5, 0.5, 0.5, 0.5))
+    scene.add(tip, "Tip", pose=(0, 0, 0.2, 1, 0, 0, 0))
+    scene.add(tip, "Other", pose=(0.05, 0, 0.01, 1, 0, 0, 0))
+    return scene
+
+
+def test_threads_and_tracking_change_no_bit():
+    scene = three_bodies()
+    rows = random_rows(600, 10, 0.03, away=0.03)
+    one = nearfit.lmds(scene, "Tip", rows, 0.02, threads=1)
+    assert len(one.distances) > 600 and set(one.parts) == {0, 1}
+    assert one.part_names == ["Block", "Other"]
+    for options in ({"threads": 2}, {"threads": 0}, {"tracked": True, "threads": 1}, {"tracked": True, "threads": 2}):
+        assert same(nearfit.lmds(scene, "Tip", rows, 0.02, **options), one), options
+    alone = [nearfit.lmds(scene, "Tip", row, 0.02) for row in rows[:40]]
+    assert all(same(a, one[i]) for i, a in enumerate(alone))
+    for ask in (lambda n: nearfit.distance(scene, "Tip", rows, threads=n), lambda n: nearfit.overlap(scene, "Tip", rows, threads=n),
+                lambda n: nearfit.wrench(scene, "Tip", rows, 0.02, 100.0, threads=n)):
+        assert ask(1).tobytes() == ask(2).tobytes() == ask(0).tobytes()
+
+
+def test_minima_of_a_pose_are_nearest_first_and_index_like_a_list():
+    scene = three_bodies()
+    found = nearfit.lmds(scene, "Tip", random_rows(50, 11, 0.03, away=0.03), 0.05)
+    for one in found:
+        assert (np.diff(one.distances) >= 0).all()
+    assert same(found[-1], found[49])
+    assert not found.distances.flags.writeable
+    with pytest.raises(IndexError):
+        found[50]
+
+
+def test_answers_follow_changes_of_the_scene():
+    scene = three_bodies()
+    scene.remove("Other")
+    scene.set_pose("Block", np.eye(4))
+    up = (0, 0, 0.035, 1, 0, 0, 0)
+    # Its lowest corner is at 0.02, the block's top at 0.01.
+    assert nearfit.distance(scene, "Tip", up)[0] == pytest.approx(0.01, rel=1e-9)
+    scene.set_pose("Block", (0, 0, -0.01, 1, 0, 0, 0))
+    assert nearfit.distance(scene, "Tip", up)[0] == pytest.approx(0.02, rel=1e-9)
+    scene.show("Block", False)
+    assert nearfit.distance(scene, "Tip", up)[0] == np.inf
+    scene.show("Block")
+    scene.set_pose("Tip", (1, 1, 1, 1, 0, 0, 0))
+    assert nearfit.distance(scene, "Tip", up)[0] == pytest.approx(0.02, rel=1e-9)
+
+
+def test_overlap_is_exact_where_bodies_touch():
+    scene = nearfit.Scene()
+    cube = nearfit.Mesh(*box((1, 1, 1)))
+    scene.add(cube, "Fixed")
+    scene.add(cube, "Moving", pose=(0, 0, 9, 1, 0, 0, 0))
+    above = np.nextafter(1.0, 2.0)
+    rows = [(0, 0, z, 1, 0, 0, 0) for z in (1.0, above, 0.5, 0.0)]
+    assert nearfit.overlap(scene, "Moving", rows).tolist() == [True, False, True, True]
+    assert nearfit.distance(scene, "Moving", rows)[[0, 2]].tolist() == [0.0, 0.0]
+
+
+def test_matrices_and_rows_are_the_same_poses():
+    scene = three_bodies()
+    rows = random_rows(20, 12, 0.03, away=0.04)
+    matrices = np.array([matrix_of(row) for row in rows])
+    assert nearfit.distance(scene, "Tip", matrices) == pytest.approx(nearfit.distance(scene, "Tip", rows), rel=1e-9)
+    assert len(nearfit.lmds(scene, "Tip", np.empty((0, 7)), 0.02)) == 0
+
+
+@pytest.mark.parametrize("poses, cutoff, words", [
+    (np.zeros((2, 3)), 0.01, "their shape is"),
+    ((np.nan, 0, 0, 1, 0, 0, 0), 0.01, "not finite"),
+    ([(0, 0, 0, 1, 0, 0, 0), (0, 0, 0, 2, 0, 0, 0)], 0.01, "pose 1"),
+    (2 * np.eye(4), 0.01, "does not turn and shift only"),
+    (np.eye(4), 0.0, "cutoff: 0 is out of range"),
+    (np.eye(4), np.inf, "cutoff"),
+])
+def test_invalid_input_is_refused(poses, cutoff, words):
+    with pytest.raises(nearfit.Error) as error:
+        nearfit.lmds(three_bodies(), "Tip", poses, cutoff)
+    assert words in str(error.value)
+
+
+def test_an_unknown_part_or_law_is_refused():
+    scene = three_bodies()
+    with pytest.raises(nearfit.Error, match='there is no part "Lid"'):
+        nearfit.lmds(scene, "Lid", np.eye(4), 0.01)
+    with pytest.raises(nearfit.Error, match="linear or printed"):
+        nearfit.wrench(scene, "Tip", np.eye(4), 0.01, 1.0, law="cubic")
+
+
+def test_a_thread_runs_while_a_batch_does():
+    scene = three_bodies()
+    rows = random_rows(20_000, 13, 0.03, away=0.03)
+    nearfit.distance(scene, "Tip", rows[:1])
+    started, counted, ended = threading.Event(), [], threading.Event()
+
+    def count():
+        started.set()
+        while not ended.is_set():
+            counted.append(None)
+            time.sleep(0)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    started.wait()
+    before = len(counted)
+    nearfit.lmds(scene, "Tip", rows, 0.05, threads=1)
+    during = len(counted) - before
+    ended.set()
+    thread.join()
+    # With the lock held it would not have counted once: the switch is at the call's ends alone.
+    assert during > 10
+
+
+def test_an_interrupt_ends_a_batch():
+    scene = three_bodies()
+    rows = np.tile(random_rows(20_000, 14, 0.03, away=0.03), (40, 1))
+    timer = threading.Timer(0.3, signal.raise_signal, (signal.SIGINT,))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        nearfit.lmds(scene, "Tip", rows, 0.05)
+    timer.join()
+    assert len(nearfit.lmds(scene, "Tip", rows[:3], 0.05)) == 3
