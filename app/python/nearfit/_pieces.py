@@ -21,9 +21,10 @@ FIRST_BATCH = 16
 MAX_BATCH = 4096
 # A batch that takes less of the piece's time than this can be doubled without being late.
 BATCH_SHARE = 1 / 20
-# A mesh as delivered: magic, vertices and triangles as counts, then coordinates [m] and indices.
-MESH_HEAD = struct.Struct("<8sQQ")
-MESH_MAGIC = b"nfmesh1\0"
+# A mesh as delivered: its fingerprint, counts of vertices and triangles, then coordinates [m] and indices.
+MESH_HEAD = struct.Struct("<64sQQ")
+# Poses as delivered: numbers in each, 7 (translation [m], quaternion) or 16 (matrix), then these.
+POSES_HEAD = struct.Struct("<Q")
 
 
 def digest(data):
@@ -37,30 +38,43 @@ def canonical(value):
 
 
 def mesh_blob(mesh):
-    """Bytes of a mesh, for delivery()."""
+    """Bytes of a mesh, for Store.put()."""
     vertices = np.ascontiguousarray(mesh.vertices, dtype="<f8")
-    triangles = np.ascontiguousarray(mesh.triangles, dtype="<i4")
-    return MESH_HEAD.pack(MESH_MAGIC, len(vertices), len(triangles)) + vertices.tobytes() + triangles.tobytes()
+    triangles = np.ascontiguousarray(mesh.triangles, dtype="<u4")
+    head = MESH_HEAD.pack(mesh.fingerprint.encode(), len(vertices), len(triangles))
+    return head + vertices.tobytes() + triangles.tobytes()
 
 
 def poses_blob(poses):
-    """Bytes of poses (k, 4, 4), for delivery()."""
-    return np.ascontiguousarray(poses, dtype="<f8").tobytes()
+    """Bytes of poses, (k, 7) or (k, 4, 4), for Store.put()."""
+    return POSES_HEAD.pack(poses[0].size) + np.ascontiguousarray(poses, dtype="<f8").tobytes()
 
 
 def _mesh_of(blob):
     import nearfit
 
-    magic, vertices, triangles = MESH_HEAD.unpack_from(blob)
-    if magic != MESH_MAGIC or len(blob) != MESH_HEAD.size + 24 * vertices + 12 * triangles:
-        raise nearfit.Error("a mesh arrived damaged; start the sweep again")
+    fingerprint, vertices, triangles = MESH_HEAD.unpack_from(blob)
     first = MESH_HEAD.size + 24 * vertices
-    return nearfit.Mesh(np.frombuffer(blob, "<f8", 3 * vertices, MESH_HEAD.size).reshape(-1, 3),
-                        np.frombuffer(blob, "<i4", 3 * triangles, first).reshape(-1, 3))
+    mesh = nearfit.Mesh(np.frombuffer(blob, "<f8", 3 * vertices, MESH_HEAD.size).reshape(-1, 3),
+                        np.frombuffer(blob, "<u4", 3 * triangles, first).reshape(-1, 3))
+    # Building repairs what a file may have wrong; a mesh that is built already has to stay as it is.
+    if mesh.fingerprint.encode() != fingerprint.rstrip(b"\0"):
+        raise nearfit.Error(f"mesh {fingerprint[:12].decode()}: built anew it is another one; pass nearfit.Mesh(m.vertices, "
+                            "m.triangles) of it as a variant's mesh")
+    return mesh
 
 
 def _poses_of(blob):
-    return np.frombuffer(blob, "<f8").reshape(-1, 4, 4)
+    (width,) = POSES_HEAD.unpack_from(blob)
+    return np.frombuffer(blob, "<f8", offset=POSES_HEAD.size).reshape((-1, 7) if width == 7 else (-1, 4, 4))
+
+
+def moved(poses, shift):
+    """A copy of poses, (k, 7) or (k, 4, 4), moved along the world's axes [m]."""
+    poses = np.array(poses, dtype=float)
+    translations = poses[:, :3] if poses.ndim == 2 else poses[:, :3, 3]
+    translations += shift
+    return poses
 
 
 def shift_of(seed, draw, part, size):
@@ -98,9 +112,13 @@ class Rows:
             begin += count
 
 
+class Forgotten(KeyError):
+    """A worker does not have, or no longer, what a digest names."""
+
+
 class Store:
     """What a worker keeps by content: meshes with their hierarchies, poses and specifications, those least used forgotten when
-    they take more than `limit` bytes as delivered. It forgets nothing that the scene at hand needs."""
+    they take more than `limit` bytes as delivered. It forgets nothing that the scene at hand needs. For several threads."""
 
     def __init__(self):
         self._lock = threading.RLock()
@@ -113,16 +131,15 @@ class Store:
         """Takes {digest: (kind, bytes)}. Raises Error where bytes are not those that the digest names."""
         import nearfit
 
+        if any(digest(blob) != name for name, (_, blob) in blobs.items()):
+            raise nearfit.Error("what a worker received is damaged; start the sweep again")
         with self._lock:
             self.limit = limit
             for name, (kind, blob) in blobs.items():
-                if name in self._kept:
-                    self._kept.move_to_end(name)
-                    continue
-                if digest(blob) != name:
-                    raise nearfit.Error("what a worker received is damaged; start the sweep again")
-                self._kept[name] = {"mesh": _mesh_of, "poses": _poses_of, "spec": json.loads}[kind](blob)
-                self._sizes[name] = len(blob)
+                if name not in self._kept:
+                    self._kept[name] = (kind, blob)
+                    self._sizes[name] = len(blob)
+                self._kept.move_to_end(name)
             self._forget(set(blobs))
 
     def _forget(self, spared):
@@ -138,9 +155,20 @@ class Store:
         return set() if key is None else {key[0], *key[3]}
 
     def get(self, name):
+        """What was delivered, made of its bytes at the first call. Raises Forgotten."""
         with self._lock:
+            if name not in self._kept:
+                raise Forgotten(name)
             self._kept.move_to_end(name)
-            return self._kept[name]
+            kind, kept = self._kept[name]
+        if kind is None:
+            return kept
+        # Not under the lock: a mesh takes a while, and a delivery must not wait in the thread that talks to the scheduler.
+        made = {"mesh": _mesh_of, "poses": _poses_of, "spec": json.loads}[kind](kept)
+        with self._lock:
+            if name in self._kept:
+                self._kept[name] = (None, made)
+        return made
 
     def lacks(self, names):
         with self._lock:
@@ -156,32 +184,35 @@ class Store:
         import nearfit
 
         meshes = meshes_of(spec, variant)
-        key = (sweep, variant, draw, tuple(meshes))
-        with self._lock:
-            if self._scene[0] != key:
-                scene = nearfit.Scene()
-                for (name, _, pose), mesh in zip(spec["scene"], meshes):
-                    pose = np.array(pose, dtype=float).reshape(4, 4)
-                    pose[:3, 3] += shift_of(spec["seed"], draw, name, spec["tolerances"].get(name, 0.0))
-                    scene.add(self.get(mesh), name=name, pose=pose)
-                self._scene = (key, scene)
-            return self._scene[1]
+        key, (known, scene) = (sweep, variant, draw, tuple(meshes)), self._scene
+        if known == key:
+            return scene
+        scene = nearfit.Scene()
+        for (name, _, row, is_visible), mesh in zip(spec["scene"], meshes):
+            shift = shift_of(spec["seed"], draw, name, spec["tolerances"].get(name, 0.0))
+            scene.add(self.get(mesh), name=name, pose=moved([row], shift)[0], visible=is_visible)
+        self._scene = (key, scene)
+        return scene
 
 
 def meshes_of(spec, variant):
     """Digests of the meshes of a variant's parts, in the order of the scene."""
     other = spec["variants"][variant]["meshes"]
-    return [other.get(name, mesh) for name, mesh, _ in spec["scene"]]
+    return [other.get(name, mesh) for name, mesh, *_ in spec["scene"]]
 
 
 # One for all workers of a process.
 STORE = Store()
 
 
+def lacking(names):
+    """Runs on a worker: those of the names that it has not."""
+    return STORE.lacks(names)
+
+
 def deliver(blobs, limit):
-    """Runs on a worker: keeps what it lacked. Returns the names of what it has now."""
+    """Runs on a worker: keeps what it lacked."""
     STORE.put(blobs, limit)
-    return sorted(blobs)
 
 
 def measure(scene, part, poses, spec):
@@ -214,25 +245,31 @@ def compute(sweep, begin, end, seconds, store=None, clock=time.perf_counter):
     Returns {"end": row after the last computed, "data": Parquet, "seconds": time taken}, or, where nothing could be computed
     for lack of inputs, {"lacks": their digests}.
     """
+    import nearfit
+
     store = store or STORE
     if store.lacks([sweep]):
         return {"lacks": [sweep]}
     started, row, batches, batch = clock(), begin, [], FIRST_BATCH
     spec = store.get(sweep)
+    if spec["nearfit"] != nearfit.__version__:
+        raise nearfit.Error(f"a worker has version {nearfit.__version__} of nearfit, not {spec['nearfit']}; install the same on all")
     for variant, draw, part, first, last in Rows(spec).runs(begin, end):
-        lacks = store.lacks(needs(spec, variant, part))
-        if lacks:
+        names = needs(spec, variant, part)
+        try:
+            lacks = store.lacks(names)
+            if lacks:
+                raise Forgotten(lacks[0])
+            scene, poses = store.scene(sweep, spec, variant, draw), store.get(spec["poses"][part])
+        except Forgotten:
             if batches:
                 break
-            return {"lacks": lacks}
-        scene = store.scene(sweep, spec, variant, draw)
+            return {"lacks": store.lacks(names)}
         name = spec["parts"][part]
         shift = shift_of(spec["seed"], draw, name, spec["tolerances"].get(name, 0.0))
-        poses = store.get(spec["poses"][part])
         while first < last and (not batches or clock() - started < seconds):
             count = min(batch, last - first)
-            placed = poses[first:first + count].copy()
-            placed[:, :3, 3] += shift
+            placed = moved(poses[first:first + count], shift)
             before = clock()
             batches.append(measure(scene, name, placed, spec))
             if clock() - before < BATCH_SHARE * seconds:
@@ -245,10 +282,12 @@ def compute(sweep, begin, end, seconds, store=None, clock=time.perf_counter):
     return {"end": row, "data": encode(spec, sweep, begin, row, columns), "seconds": clock() - started}
 
 
-def run_piece(sweep, begin, end, seconds):
-    """Task of a worker: compute(), and who computed it."""
+def run_piece(sweep, begin, end, seconds, blobs=None, limit=0):
+    """Task of a worker: compute(), and who computed it. `blobs` are what it has missed too often."""
     import distributed
 
+    if blobs:
+        STORE.put(blobs, limit)
     return {**compute(sweep, begin, end, seconds), "worker": distributed.get_worker().address}
 
 

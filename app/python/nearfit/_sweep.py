@@ -30,12 +30,16 @@ STORE_BYTES = 1 << 30
 # A piece waits for at most one other on its worker: what takes this many times its budget hangs, and is given to another.
 LATE_FACTOR = 6.0
 MIN_LATE_SECONDS = 2.0
+# A piece first misses the specification, then meshes and poses, perhaps once more on another worker.
+MAX_MISSES = 5
 # Workers that compute one piece at the same time, where each in turn is late.
 MAX_ASKED = 4
 # How often a piece is tried on workers that are lost.
 MAX_ATTEMPTS = 8
 # After this without any worker the sweep ends with an error.
 NO_WORKER_SECONDS = 120.0
+# Numbers of a rotation or a quaternion may be rounded to three digits; those that make queries then are the package's affair.
+POSE_SLACK = 2e-3
 # How often the number of workers and late pieces are looked at.
 LOOK_SECONDS = 0.25
 
@@ -115,12 +119,32 @@ def open_sweep(folder):
 
 def _poses_array(poses, where):
     poses = np.asarray(poses, dtype=float)
-    if poses.ndim != 3 or poses.shape[1:] != (4, 4) or len(poses) == 0:
-        _fail(f"{where}: poses must be an array (k, 4, 4) of at least one pose, not {poses.shape}")
-    bad = ~(np.isfinite(poses).all(axis=(1, 2)) & (poses[:, 3] == (0, 0, 0, 1)).all(axis=1))
-    if bad.any():
-        _fail(f"{where}: pose {int(np.argmax(bad))} is no rigid transform: numbers must be finite, the last row 0, 0, 0, 1")
+    if poses.shape[1:] not in ((4, 4), (7,)) or len(poses) == 0:
+        _fail(f"{where}: poses must be an array (k, 4, 4) or (k, 7) of at least one pose, not {poses.shape}")
+    numbers = poses.reshape(len(poses), -1)
+    good = np.isfinite(numbers).all(axis=1)
+    if poses.ndim == 3:
+        good &= (poses[:, 3] == (0, 0, 0, 1)).all(axis=1)
+        good &= (np.abs(np.swapaxes(poses[:, :3, :3], 1, 2) @ poses[:, :3, :3] - np.eye(3)) < POSE_SLACK).all(axis=(1, 2))
+        good &= np.linalg.det(poses[:, :3, :3]) > 0
+    else:
+        good &= np.abs(np.linalg.norm(poses[:, 3:], axis=1) - 1) < POSE_SLACK
+    if not good.all():
+        _fail(f"{where}: pose {int(np.argmin(good))} is no rigid transform: give finite numbers, and a rotation or a unit quaternion")
     return poses
+
+
+def _visible(scene):
+    """{part: True where queries are against it}."""
+    import nearfit
+
+    names = list(scene.parts)
+    if len(names) < 2:
+        return dict.fromkeys(names, True)
+    # Queries of two parts name all others that are visible, but themselves.
+    here = np.eye(4)[None]
+    seen = {other for name in names[:2] for other in nearfit.lmds(scene, name, here, 1e-9, threads=1).part_names}
+    return {name: name in seen for name in names}
 
 
 def _names(parts):
@@ -163,11 +187,11 @@ class _Inputs:
         self._check_parts("tolerances", tolerances, there)
         if not tolerances and draws != 1:
             _fail("draws: without tolerances all draws are alike; give tolerances, or leave draws out")
-        arrays = self._poses(poses, parts)
+        arrays, visible = self._poses(poses, parts), _visible(scene)
         self.spec = {
             "nearfit": nearfit.__version__, "parts": parts, "count": len(arrays[0]), "poses": [self._add_poses(a) for a in arrays],
-            "scene": [[name, self._add_mesh(scene.mesh(name)), np.asarray(scene.pose(name), float).ravel().tolist()]
-                      for name in there],
+            "scene": [[name, self._add_mesh(scene.mesh(name)), np.asarray(scene.pose_row(name), float).ravel().tolist(),
+                       visible[name]] for name in there],
             "variants": self._variants(variants, there), "tolerances": tolerances, "draws": _count("draws", draws),
             "seed": _count("seed", seed, 0), "measures": measures, "cutoff": cutoff, "threshold": threshold}
         spec = _pieces.canonical(self.spec)
@@ -219,6 +243,11 @@ class _Inputs:
             found.append({"name": name, "meshes": {part: self._add_mesh(mesh) for part, mesh in sorted(meshes.items())}})
         return found
 
+    def needed(self, row):
+        """Blobs that a row is computed from."""
+        variant, _, part, _ = _pieces.Rows(self.spec).place(row)
+        return {name: self.blobs[name] for name in (self.sweep, *_pieces.needs(self.spec, variant, part))}
+
     def check_store(self, limit):
         """Raises Error where a worker could not keep what one piece needs."""
         sizes = {name: len(blob) for name, (_, blob) in self.blobs.items()}
@@ -261,7 +290,7 @@ class _Piece:
 
     def __init__(self, begin, end):
         self.begin, self.end = begin, end
-        self.attempts, self.started = 0, 0.0
+        self.attempts, self.misses, self.started = 0, 0, 0.0
         self.futures = []
         self.is_done = False
 
@@ -307,7 +336,6 @@ class _OnDask:
     def __init__(self, client, inputs, limit):
         self._client, self._inputs, self._limit = client, inputs, limit
         self._answers = queue.SimpleQueue()
-        self._sent = set()
         self._number = 0
         self._looked, self._threads, self._last_seen = -math.inf, {}, time.monotonic()
 
@@ -331,7 +359,9 @@ class _OnDask:
     def submit(self, piece, seconds):
         self._number += 1
         # Each try has a key of its own: a piece may be asked for twice, and never be taken from an earlier sweep.
-        future = self._client.submit(_pieces.run_piece, self._inputs.sweep, piece.begin, piece.end, seconds,
+        # Where pieces drive each other's inputs out of a full store, one brings its own along.
+        blobs = self._inputs.needed(piece.begin) if piece.misses >= MAX_MISSES else None
+        future = self._client.submit(_pieces.run_piece, self._inputs.sweep, piece.begin, piece.end, seconds, blobs, self._limit,
                                      key=f"nearfit-{self._inputs.sweep[:12]}-{id(self):x}-{self._number}", pure=False)
         piece.futures.append(future)
         piece.started = time.monotonic()
@@ -367,20 +397,16 @@ class _OnDask:
         return answer
 
     def _deliver(self, worker, names):
-        """Sends a worker what it lacks, once, though several pieces may have lacked it at the same time."""
-        news = [name for name in names if (worker, name) not in self._sent]
-        # What was sent and is lacking has been forgotten, or is on its way no more: the next miss sends it again.
-        self._sent -= {(worker, name) for name in names if name not in news}
-        if not news:
-            return
-        blobs = {name: self._inputs.blobs[name] for name in news}
+        """Sends a worker what it lacks. It is asked again: pieces that waited for each other lacked the same."""
+        # A worker that has gone meanwhile has no answer; the next one says itself what it lacks.
         with contextlib.suppress(OSError, KeyError, ValueError):
-            # A worker that has gone meanwhile lacks them again, as another one.
-            done = self._client.run(_pieces.deliver, blobs, self._limit, workers=[worker], on_error="return")
-            refused = done.get(worker)
-            if isinstance(refused, Exception) and not isinstance(refused, OSError):
-                raise _Refused(f"a worker refused what it was sent: {refused}")
-            self._sent |= {(worker, name) for name in news}
+            lacks = self._client.run(_pieces.lacking, names, workers=[worker], on_error="return").get(worker)
+            if not lacks or isinstance(lacks, Exception):
+                return
+            blobs = {name: self._inputs.blobs[name] for name in lacks}
+            refused = self._client.run(_pieces.deliver, blobs, self._limit, workers=[worker], on_error="return").get(worker)
+            if isinstance(refused, RuntimeError):
+                _fail(f"a worker refused what it was sent: {refused}")
 
     def drop(self, piece):
         """Lets go of the futures of a piece that another one has answered."""
@@ -390,10 +416,6 @@ class _OnDask:
 
     def stop(self):
         pass
-
-
-class _Refused(RuntimeError):
-    """A worker cannot use its inputs."""
 
 
 class _Progress:
@@ -505,6 +527,7 @@ class _Run:
         elif isinstance(answer, Exception):
             _fail(f"{self._place(piece)}: {answer}")
         elif "lacks" in answer:
+            piece.misses += 1
             self._submit(piece)
         else:
             self._accept(piece, answer)
@@ -552,9 +575,9 @@ def sweep(scene, parts, poses, client=None, *, cutoff, threshold, folder, varian
 
     Each part in turn is placed at each pose, while all others stay where the scene has them.
 
-    @param scene       Scene; it is read once, and not changed.
+    @param scene       Scene; it is read once, and not changed. Parts that are hidden are in nobody's way.
     @param parts       Names of the parts to place: a list, or one name.
-    @param poses       (k, 4, 4): world from part, lengths in metres, for each part; or {part: (k, 4, 4)}.
+    @param poses       (k, 4, 4), or (k, 7) rows tx ty tz [m], qw qx qy qz: world from part, for each part; or {part: poses}.
     @param client      dask.distributed.Client; None: processes on this machine, as `workers` says. Its workers need nearfit of
                        the same version.
     @param cutoff      Max distance to look for [m].

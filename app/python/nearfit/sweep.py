@@ -35,18 +35,6 @@ class _UsageError(Exception):
     pass
 
 
-def _matrices(rows):
-    """(k, 4, 4) of rows tx, ty, tz [m], qw, qx, qy, qz; quaternions are normalised."""
-    lengths = np.linalg.norm(rows[:, 3:], axis=1)
-    w, x, y, z = (rows[:, 3:] / lengths[:, None]).T
-    poses = np.zeros((len(rows), 4, 4))
-    poses[:, :3, 3], poses[:, 3, 3] = rows[:, :3], 1
-    poses[:, 0, :3] = np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)], axis=1)
-    poses[:, 1, :3] = np.stack([2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)], axis=1)
-    poses[:, 2, :3] = np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], axis=1)
-    return poses
-
-
 def _check_row(numbers, where):
     if not np.isfinite(numbers).all():
         raise ValueError(f"{where}: a number is not finite; write tx,ty,tz,qw,qx,qy,qz")
@@ -79,13 +67,13 @@ def _rows_of_csv(text):
 
 
 def read_poses(path):
-    """(k, 4, 4) of a file: CSV with a pose tx, ty, tz, qw, qx, qy, qz in each line, or an array of numpy (.npy), (k, 4, 4) or
-    (k, 7). Raises ValueError and OSError."""
+    """Poses of a file, (k, 4, 4) or (k, 7): CSV with tx, ty, tz, qw, qx, qy, qz in each line, or such an array of numpy (.npy).
+    Raises ValueError and OSError."""
     import io
 
     data = read_file(path, MAX_POSES_BYTES)
     if pathlib.Path(path).suffix != ".npy":
-        return _matrices(_rows_of_csv(data.decode("utf-8")))
+        return _rows_of_csv(data.decode("utf-8"))
     # A header may claim any size, and objects could run code.
     array = np.load(io.BytesIO(data), allow_pickle=False)
     if not isinstance(array, np.ndarray) or array.dtype.kind not in "fiu":
@@ -94,7 +82,7 @@ def read_poses(path):
     if array.ndim == 2 and array.shape[1] == 7 and len(array):
         for i, row in enumerate(array):
             _check_row(row, f"pose {i}")
-        return _matrices(array)
+        return array
     if array.ndim != 3 or array.shape[1:] != (4, 4):
         raise ValueError(f"it is an array {array.shape}; write (k, 4, 4) or (k, 7)")
     return array

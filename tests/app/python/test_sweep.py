@@ -1,5 +1,6 @@
 """Sweeps: the same rows whatever computes them, and folders that are believed in nothing."""
 
+import csv
 import json
 import logging
 import os
@@ -57,11 +58,19 @@ def run(scene, parts, poses, folder, client=None, **options):
     return nearfit.sweep(scene, parts, poses, client, folder=folder, **options)
 
 
-@pytest.fixture
-def client():
+@pytest.fixture(scope="module")
+def cluster_client():
+    # Starting its processes takes longer than the tests.
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, host="127.0.0.1",
                                   silence_logs=logging.CRITICAL) as cluster, distributed.Client(cluster) as found:
         yield found
+
+
+@pytest.fixture
+def client(cluster_client):
+    # One that was killed is started anew.
+    cluster_client.wait_for_workers(2, timeout=60)
+    return cluster_client
 
 
 def same(one, other):
@@ -88,6 +97,18 @@ def test_distances_minima_and_overlaps_are_those_of_cubes(tmp_path):
     assert rows["overlap"].tolist() == (gaps == 0).tolist()
     assert (rows["minima"] > 0).tolist() == [0 < gap < THRESHOLD for gap in gaps.tolist()]
     assert rows["pose"].tolist() == list(range(6)) and set(rows["part"]) == {"Moving"}
+
+
+def test_a_hidden_part_is_in_nobodys_way_and_rows_are_those_of_the_scene_itself(tmp_path):
+    scene, poses = grid_scene(9), random_poses(60, 3)
+    scene.show("P2", False)
+    rows = run(scene, ["P0", "P2"], poses, tmp_path / "out").arrays()
+    for i, part in enumerate(["P0", "P2"]):
+        own = slice(60 * i, 60 * (i + 1))
+        assert np.array_equal(rows["distance"][own], nearfit.distance(scene, part, poses, cutoff=CUTOFF))
+        assert np.array_equal(rows["overlap"][own], nearfit.overlap(scene, part, poses))
+        found = nearfit.lmds(scene, part, poses, CUTOFF)
+        assert rows["minima"][own].tolist() == [int((found[k].distances < THRESHOLD).sum()) for k in range(60)]
 
 
 def test_a_variant_has_the_mesh_that_it_names(tmp_path):
@@ -142,8 +163,12 @@ def test_a_worker_gets_each_input_once(tmp_path, client, monkeypatch):
         return real(function, *arguments, **options)
 
     monkeypatch.setattr(client, "run", recorded)
-    scene = grid_scene(15)
-    run(scene, scene.parts, random_poses(40), tmp_path / "out", client, piece_poses=20)
+    scene = nearfit.Scene()
+    # Meshes that no other test has: workers keep what they got.
+    meshes = [box(0.25 + 0.01 * i) for i in range(5)]
+    for i in range(15):
+        scene.add(meshes[i % 5], name=f"P{i}", pose=moved([[3 * i, 0, 0]])[0])
+    run(scene, scene.parts, random_poses(40, 2), tmp_path / "out", client, piece_poses=20)
     # Five meshes for fifteen parts, the poses and the specification.
     assert len(set(sent)) == len(sent) and {len([w for w, _ in sent if w == worker]) for worker, _ in sent} == {7}
 
@@ -194,11 +219,24 @@ def test_a_store_keeps_to_its_bytes_and_takes_nothing_damaged():
     assert store.lacks([_pieces.digest(b) for b in blobs]) == [_pieces.digest(b) for b in blobs[:2]]
     with pytest.raises(nearfit.Error, match="damaged"):
         store.put({_pieces.digest(blobs[0]): ("poses", blobs[1])}, 1 << 20)
+    with pytest.raises(_pieces.Forgotten):
+        store.get(_pieces.digest(blobs[0]))
+    assert np.array_equal(store.get(_pieces.digest(blobs[4])), random_poses(10, 4))
 
 
 def test_meshes_that_no_worker_could_keep_are_refused(tmp_path):
     with pytest.raises(nearfit.Error, match="store_bytes"):
         run(grid_scene(3), "P0", random_poses(100), tmp_path / "out", store_bytes=1000)
+
+
+def test_inputs_that_drive_each_other_out_still_get_their_turn(tmp_path, client):
+    scene, poses = grid_scene(3), random_poses(20, 4)
+    variants = {str(i): {"P1": box(0.3 + 0.01 * i), "P2": box(0.4 + 0.01 * i)} for i in range(6)}
+    inputs = _sweep._Inputs(scene, ["P0"], poses, variants, None, 1, 0, ["distance"], CUTOFF, THRESHOLD)
+    room = sum(len(blob) for _, blob in inputs.needed(0).values())
+    options = {"variants": variants, "measures": "distance", "piece_poses": 5}
+    many = run(scene, "P0", poses, tmp_path / "many", client, store_bytes=room, **options)
+    assert same(many, run(scene, "P0", poses, tmp_path / "alone", **options))
 
 
 class Stop(Exception):
@@ -364,8 +402,9 @@ def test_two_sweeps_do_not_write_to_one_folder(tmp_path):
     ({"cutoff": 0}, "cutoff"), ({"cutoff": float("nan")}, "cutoff"), ({"threshold": -1}, "threshold"),
     ({"threshold": 2.0}, "more than the cutoff"), ({"measures": ["depth"]}, "measures"), ({"measures": []}, "measures"),
     ({"draws": 2}, "without tolerances"), ({"tolerances": {"None": 1}}, "no part"), ({"tolerances": {"P0": -1}}, "tolerance of P0"),
-    ({"tolerances": {"P0": 1}, "draws": 0}, "draws"), ({"poses": np.zeros((3, 7))}, r"\(k, 4, 4\)"),
+    ({"tolerances": {"P0": 1}, "draws": 0}, "draws"), ({"poses": np.zeros((3, 6))}, r"\(k, 4, 4\)"),
     ({"poses": np.zeros((0, 4, 4))}, "at least one pose"), ({"poses": np.zeros((1, 4, 4))}, "pose 0 is no rigid transform"),
+    ({"poses": [[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 2, 0, 0, 0]]}, "pose 1 is no rigid transform"),
     ({"poses": {"P1": np.eye(4)[None]}}, "each of the parts"), ({"variants": {}}, "variants"),
     ({"variants": {"v": {"None": None}}}, "no part"), ({"piece_poses": 0}, "piece_poses"), ({"piece_seconds": 0}, "piece_seconds"),
     ({"workers": -1}, "workers")])
@@ -439,3 +478,17 @@ def test_calling_the_module_is_calling_the_function():
     module = importlib.import_module("nearfit.sweep")
     assert callable(module) and module.sweep is _sweep.sweep
     assert pathlib.Path(module.__file__).name == "sweep.py"
+
+
+@pytest.mark.full
+def test_the_table_of_costs_has_its_head_and_what_the_page_names(tmp_path):
+    script, out = pathlib.Path(__file__).with_name("sweep_cost.py"), tmp_path / "cost.csv"
+    done = subprocess.run([sys.executable, script, "-o", out, "--parts", "8", "--swept", "2", "--poses", "100", "--triangles", "200",
+                           "--memory-triangles", "20000", "--rounds", "1", "--allow-busy"], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    lines = out.read_text().splitlines()
+    assert [line for line in lines if line.startswith("# revision: ")] and [line for line in lines if line.startswith("# processor: ")]
+    rows = {row[0]: float(row[1]) for row in csv.reader(line for line in lines if not line.startswith("#")) if row[0] != "quantity"}
+    for name in ("row of all measures", "mesh and hierarchy in memory", "mesh moved", "row written", "two workers over one"):
+        assert rows[name] > 0
+    assert rows["large: rows"] == 1e9
