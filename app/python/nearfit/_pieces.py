@@ -124,7 +124,7 @@ class Store:
         self._lock = threading.RLock()
         self._kept = collections.OrderedDict()
         self._sizes = {}
-        self._scene = (None, None)
+        self._scenes = {}
         self.limit = 0
 
     def put(self, blobs, limit):
@@ -151,8 +151,7 @@ class Store:
                 del self._kept[name], self._sizes[name]
 
     def _in_use(self):
-        key = self._scene[0]
-        return set() if key is None else {key[0], *key[3]}
+        return {name for kept in self._scenes.values() for name in (kept["key"][0], *kept["key"][3])}
 
     def get(self, name):
         """What was delivered, made of its bytes at the first call. Raises Forgotten."""
@@ -179,20 +178,26 @@ class Store:
         with self._lock:
             return sum(self._sizes.values())
 
-    def scene(self, sweep, spec, variant, draw):
-        """The scene of a variant and a draw. The last one is kept: rows of one scene follow one another."""
+    def scene(self, sweep, spec, variant, draw, part):
+        """The scene of a variant and a draw, for queries of a part (a name). Each thread keeps the last one: rows of one scene
+        follow one another, and a scene is not to be changed while another thread uses it."""
         import nearfit
 
-        meshes = meshes_of(spec, variant)
-        key, (known, scene) = (sweep, variant, draw, tuple(meshes)), self._scene
-        if known == key:
-            return scene
-        scene = nearfit.Scene()
-        for (name, _, row, is_visible), mesh in zip(spec["scene"], meshes):
-            shift = shift_of(spec["seed"], draw, name, spec["tolerances"].get(name, 0.0))
-            scene.add(self.get(mesh), name=name, pose=moved([row], shift)[0], visible=is_visible)
-        self._scene = (key, scene)
-        return scene
+        meshes, thread = meshes_of(spec, variant), threading.get_ident()
+        key, kept = (sweep, variant, draw, tuple(meshes)), self._scenes.get(thread)
+        if kept is None or kept["key"] != key:
+            kept = {"key": key, "scene": nearfit.Scene(), "rows": {}, "part": part}
+            for (name, _, row, is_visible), mesh in zip(spec["scene"], meshes):
+                shift = shift_of(spec["seed"], draw, name, spec["tolerances"].get(name, 0.0))
+                kept["rows"][name] = moved([row], shift)[0]
+                kept["scene"].add(self.get(mesh), name=name, pose=kept["rows"][name], visible=is_visible)
+            with self._lock:
+                self._scenes[thread] = kept
+        if kept["part"] != part:
+            # Moving a part makes a scene forget what it holds for queries of others, which would grow with each part.
+            kept["scene"].set_pose(part, kept["rows"][part])
+            kept["part"] = part
+        return kept["scene"]
 
 
 def meshes_of(spec, variant):
@@ -255,17 +260,16 @@ def compute(sweep, begin, end, seconds, store=None, clock=time.perf_counter):
     if spec["nearfit"] != nearfit.__version__:
         raise nearfit.Error(f"a worker has version {nearfit.__version__} of nearfit, not {spec['nearfit']}; install the same on all")
     for variant, draw, part, first, last in Rows(spec).runs(begin, end):
-        names = needs(spec, variant, part)
+        names, name = needs(spec, variant, part), spec["parts"][part]
         try:
             lacks = store.lacks(names)
             if lacks:
                 raise Forgotten(lacks[0])
-            scene, poses = store.scene(sweep, spec, variant, draw), store.get(spec["poses"][part])
+            scene, poses = store.scene(sweep, spec, variant, draw, name), store.get(spec["poses"][part])
         except Forgotten:
             if batches:
                 break
             return {"lacks": store.lacks(names)}
-        name = spec["parts"][part]
         shift = shift_of(spec["seed"], draw, name, spec["tolerances"].get(name, 0.0))
         while first < last and (not batches or clock() - started < seconds):
             count = min(batch, last - first)
