@@ -95,11 +95,11 @@ void checkPackages(const std::string& python) {
   throw Error(python, "it does not run a Python program", "name an interpreter of Python 3 with --python");
 }
 
-/// A length as Python reads it, to the last bit. Throws UsageError.
+/// A length in metres by its shortest digits that Python reads as the same number. Throws UsageError.
 std::string metresText(const std::string& option, const std::string& text, bool orZero) {
   const double metres = parseLength(option, text);
   checkPositive(option, metres, orZero);
-  return fmt::format("{:.17g}", metres);
+  return fmt::format("{}", metres);
 }
 
 std::string toleranceText(const std::string& text) {

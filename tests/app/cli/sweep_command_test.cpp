@@ -47,12 +47,11 @@ TEST_F(SweepCommand, ArgumentsGoToThePackageAsTheyAreAndItsOutputAndExitCodeCome
                                         "--measures", "overlap", "--quiet", "--python", printer()}));
   EXPECT_EQ(result.exitCode, 3);
   EXPECT_EQ(result.err, "safe 1\n");
-  EXPECT_THAT(
-      linesOf(result.out),
-      ElementsAre("-m", "nearfit.sweep", "--parts=Cube,$(touch x) `id`", "--poses=" + path("poses.csv"),
-                  "--threshold=0.001", "--cutoff=0.10000000000000001", "--out=" + path("out"), "--draws=3",
-                  "--seed=7", "--part=-a; b", "--tolerance=A=B=0.00050000000000000001", "--measures=overlap",
-                  "--workers=2", "--quiet", "--", scene_));
+  EXPECT_THAT(linesOf(result.out), ElementsAre("-m", "nearfit.sweep", "--parts=Cube,$(touch x) `id`",
+                                               "--poses=" + path("poses.csv"), "--threshold=0.001",
+                                               "--cutoff=0.1", "--out=" + path("out"), "--draws=3",
+                                               "--seed=7", "--part=-a; b", "--tolerance=A=B=0.0005",
+                                               "--measures=overlap", "--workers=2", "--quiet", "--", scene_));
 }
 
 TEST_F(SweepCommand, AnOptionThatIsNotGivenIsLeftToThePackage) {
