@@ -24,5 +24,6 @@ void addReportCommand(CLI::App& program);
 void addSuggestCommand(CLI::App& program);
 void addCacheCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
+void addSweepCommand(CLI::App& program);
 
 }  // namespace nearfit::cli

@@ -28,6 +28,7 @@ from ._nearfit import (
     wrench,
     write_path,
 )
+from ._sweep import SweepResult, open_sweep, sweep
 from .pictures import plot, show
 
 __all__ = [
@@ -38,6 +39,7 @@ __all__ = [
     "Mesh",
     "Placement",
     "Scene",
+    "SweepResult",
     "Verification",
     "__version__",
     "certify",
@@ -45,11 +47,13 @@ __all__ = [
     "distance",
     "export",
     "lmds",
+    "open_sweep",
     "overlap",
     "place",
     "plot",
     "read_mesh",
     "show",
+    "sweep",
     "verify",
     "wrench",
     "write_path",
