@@ -57,6 +57,7 @@ int run(int argc, char** argv) {
   nearfit::cli::addVerifyCommand(program);
   nearfit::cli::addReportCommand(program);
   nearfit::cli::addSuggestCommand(program);
+  nearfit::cli::addScriptCommand(program);
   nearfit::cli::addDevicesCommand(program);
   nearfit::cli::addCacheCommand(program);
   try {
