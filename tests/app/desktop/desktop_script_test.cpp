@@ -9,7 +9,7 @@ using namespace nearfit::test;
 
 namespace {
 
-QString kScript() {
+QString scriptName() {
   return QStringLiteral("session.jsonl");
 }
 
@@ -43,7 +43,7 @@ class DesktopScriptTest : public QObject {
 
 void DesktopScriptTest::aRecordedSessionLeadsToTheSameSceneInAWindowAndWithoutOne() {
   DesktopDriver d;
-  const QString script = pathIn(d.folder, kScript());
+  const QString script = pathIn(d.folder, scriptName());
   d.addCubes();
   record(d, script);
   QVERIFY(d.action("recordCommands")->isChecked());
@@ -82,7 +82,7 @@ void DesktopScriptTest::theEntrySaysHowManyCommandsThereAre() {
   DesktopDriver d;
   d.addCubes();
   const QString before = d.action("recordCommands")->text();
-  record(d, pathIn(d.folder, kScript()));
+  record(d, pathIn(d.folder, scriptName()));
   QVERIFY(d.action("recordCommands")->text().contains(QStringLiteral("(0)")));
   d.session().renamePart(d.partId("fixed"), "Block");
   QVERIFY(d.action("recordCommands")->text().contains(QStringLiteral("(1)")));
@@ -95,11 +95,11 @@ void DesktopScriptTest::theEntrySaysHowManyCommandsThereAre() {
 void DesktopScriptTest::anotherSceneEndsTheRecording() {
   DesktopDriver d;
   d.addCubes();
-  record(d, pathIn(d.folder, kScript()));
+  record(d, pathIn(d.folder, scriptName()));
   d.session().renamePart(d.partId("fixed"), "Block");
   d.session().reset();
   QVERIFY(!d.action("recordCommands")->isChecked());
-  const std::string script = readBytes(d.folder.path() / kScript().toStdString());
+  const std::string script = readBytes(d.folder.path() / scriptName().toStdString());
   QVERIFY(script.find("renamePart") != std::string::npos);
 }
 
