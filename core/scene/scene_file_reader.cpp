@@ -419,23 +419,17 @@ std::vector<GroupId> addGroups(Scene& scene, const std::vector<GroupEntry>& entr
   std::vector<std::size_t> byAge(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i)
     byAge[entries[i].age] = i;
-  std::vector<GroupId> ids(entries.size());
-  const auto isPlaceable = [&](std::size_t i) {
-    return entries[i].parent && entries[*entries[i].parent].age < entries[i].age;
-  };
+  std::vector<Group> groups;
+  std::vector<std::optional<std::size_t>> parents;
   for (const std::size_t i : byAge) {
-    Group group = entries[i].group;
-    group.isLocked = false;
-    if (isPlaceable(i)) group.parent = ids[*entries[i].parent];
-    ids[i] = scene.addGroup(std::move(group));
+    groups.push_back(entries[i].group);
+    groups.back().isLocked = false;
+    parents.push_back(entries[i].parent ? std::optional(entries[*entries[i].parent].age) : std::nullopt);
   }
-  // A parent may be younger than what was put into it.
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (!entries[i].parent || isPlaceable(i)) continue;
-    Group group = *scene.findGroup(ids[i]);
-    group.parent = ids[*entries[i].parent];
-    scene.replaceGroup(std::move(group));
-  }
+  const std::vector<GroupId> added = scene.addGroups(std::move(groups), parents);
+  std::vector<GroupId> ids;
+  for (const GroupEntry& entry : entries)
+    ids.push_back(added[entry.age]);
   return ids;
 }
 
