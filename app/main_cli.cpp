@@ -58,6 +58,7 @@ int run(int argc, char** argv) {
   nearfit::cli::addReportCommand(program);
   nearfit::cli::addSuggestCommand(program);
   nearfit::cli::addSweepCommand(program);
+  nearfit::cli::addScriptCommand(program);
   nearfit::cli::addDevicesCommand(program);
   nearfit::cli::addCacheCommand(program);
   try {

@@ -53,6 +53,8 @@ int run(int argc, char** argv) {
   } else if (!options.screenshot.empty()) {
     screenshot.emplace(application, fileNames({options.screenshot}).first());
     screenshot->take(files, options.metresPerUnit, options.tessellation);
+  } else if (!options.script.empty()) {
+    application.replayScript(fileNames({options.script}).first());
   } else {
     application.show(files, options.isDemo, options.metresPerUnit, options.tessellation);
   }

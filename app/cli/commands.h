@@ -22,6 +22,7 @@ void addCertifyCommand(CLI::App& program);
 void addVerifyCommand(CLI::App& program);
 void addReportCommand(CLI::App& program);
 void addSuggestCommand(CLI::App& program);
+void addScriptCommand(CLI::App& program);
 void addCacheCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
 void addSweepCommand(CLI::App& program);

@@ -7,8 +7,10 @@
 #include <QSettings>
 #include <QTimer>
 #include <QtGlobal>
+#include <exception>
 
 #include "core/base/error.h"
+#include "core/session/session_script.h"
 #include "ui/files/document.h"
 #include "ui/model/hand_state.h"
 #include "ui/panels/feel/feel_control.h"
@@ -17,6 +19,9 @@
 #include "ui/panels/suggest/path_suggestion.h"
 #include "ui/tools/placing/hand_control.h"
 #include "ui/view3d/viewport.h"
+#include "ui/widgets/error_box.h"
+#include "ui/widgets/names.h"
+#include "ui/widgets/paths.h"
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/theme.h"
 
@@ -78,6 +83,21 @@ void Application::show(const QStringList& files, bool isDemo, std::optional<doub
     // A question about lost work comes first.
     if (isFirst && QApplication::activeModalWidget() == nullptr) return window_.beginTour();
     if (isDemo) window_.openDemo();
+  });
+}
+
+void Application::replayScript(const QString& file) {
+  window_.show();
+  QTimer::singleShot(0, this, [this, file] {
+    try {
+      const SessionScript script = readScript(ui::toPath(file));
+      // It is in no file as it is: saving must not replace the scene that the script starts from.
+      if (script.scene) session_.restore(startOf(script), {});
+      replay(script, session_);
+      window_.showNote(tr("Replayed %1").arg(ui::shortName(QFileInfo(file).fileName())));
+    } catch (const std::exception&) {
+      window_.showFailure(ui::describe(tr("The script could not be replayed."), std::current_exception()));
+    }
   });
 }
 

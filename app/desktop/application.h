@@ -32,6 +32,10 @@ class Application : public QObject {
   void show(const QStringList& files, bool isDemo, std::optional<double> metresPerUnit = std::nullopt,
             const std::optional<Tessellation>& tessellation = std::nullopt);
 
+  /// Shows the window and replays a script in it. A line that fails is shown as a failure; the scene is then as before
+  /// that line. Blocks while meshes load.
+  void replayScript(const QString& file);
+
   Session& session() noexcept { return session_; }
   ui::MainWindow& window() noexcept { return window_; }
   ServoController& servo() noexcept { return servo_; }

@@ -86,6 +86,16 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
           "--record", options.record,
           "Write every tick to this CSV file, as nearfit-cli place --record does; each new run replaces it")
       ->type_name("FILE");
+  program
+      .add_option(
+          "--script", options.script,
+          "Replay the commands of a script (JSON lines, as Record commands writes them); nearfit-cli script "
+          "needs no display")
+      ->type_name("FILE")
+      ->excludes(files)
+      ->excludes(demo)
+      ->excludes(hand)
+      ->excludes("--screenshot");
   hand->excludes("--screenshot");
   demo->excludes(hand)->excludes("--screenshot");
   try {
@@ -122,6 +132,7 @@ void requireTargets(const Options& options, const QStringList& files) {
   if (!picture.empty() && !record.empty() && isSameTarget(picture, record))
     throw UsageError("--record", "it names the same file as --screenshot", "give two files");
   std::vector<std::filesystem::path> inputs;
+  if (!options.script.empty()) inputs.emplace_back(options.script);
   for (const QString& file : files)
     inputs.push_back(ui::toPath(file));
   if (options.device) {

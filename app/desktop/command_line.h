@@ -23,6 +23,7 @@ struct Options {
   bool isArming = false;              ///< Arms the device as soon as it is ready.
   std::optional<double> seconds;      ///< Ends after that time [s].
   std::string record;                 ///< File for what is felt; empty: none.
+  std::string script;                 ///< Script to replay at the start; empty: none.
 
   /// True if nobody watches the run, or it ends by itself: it must not ask questions.
   bool isUnattended() const noexcept { return !screenshot.empty() || seconds.has_value(); }

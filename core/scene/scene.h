@@ -81,6 +81,11 @@ class Scene {
   /// Adds a copy of `group` with a new ID and returns the ID. Throws UsageError if the name is invalid, the
   /// parent is unknown or locked, or kMaxGroups or kMaxGroupDepth would be exceeded.
   GroupId addGroup(Group group);
+  /// Adds groups, oldest first, any of which may hold others of them. Returns their IDs in that order. Throws UsageError like
+  /// addGroup(), also if one would contain itself. O(n) times the depth.
+  /// @param parents  For each the index of its parent among them; std::nullopt: the top level.
+  std::vector<GroupId> addGroups(std::vector<Group> added,
+                                 const std::vector<std::optional<std::size_t>>& parents);
   /// Replaces the group with the same ID. Throws UsageError like addGroup(), or if there is no such
   /// group, it would contain itself, it is locked and more than its own lock would change, or it would
   /// lock a part that the hand moves.

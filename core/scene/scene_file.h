@@ -31,7 +31,9 @@
 ///       "groups": [{
 ///         "name": "Frame",                                   not empty
 ///         "group": null,                                     parent: index of an earlier group, or null
-///         "locked": false
+///         "locked": false,
+///         "age": 0                                           optional, for all groups or none: place from the oldest
+///                                                            to the newest; as in the file if not there
 ///       }],
 ///       "parts": [{
 ///         "name": "Peg",                                     unique, not empty

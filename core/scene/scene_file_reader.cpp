@@ -19,6 +19,7 @@
 #include "core/scene/document_load.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_file_haptics.h"
+#include "core/scene/scene_json.h"
 #include "core/text/json_file.h"
 #include "core/text/utf8.h"
 
@@ -26,9 +27,6 @@ namespace nearfit {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Max length of a mesh path [bytes]: Linux's limit.
-constexpr std::size_t kMaxPathBytes = 4095;
 
 /// A part as in the file, its mesh not loaded yet.
 struct PartEntry {
@@ -48,6 +46,7 @@ struct GroupEntry {
   Group group;                        ///< `parent` is not set.
   std::optional<std::size_t> parent;  ///< Index of an earlier group.
   bool isLockedAnyhow = false;        ///< True if it or a group that contains it is locked.
+  std::size_t age = 0;                ///< Place among the groups from oldest to newest.
 };
 
 int readVersion(const JsonField& root) {
@@ -73,40 +72,6 @@ void checkUnits(const JsonField& units) {
   }
 }
 
-/// Runs `check` and turns its UsageError into an error of the field.
-template <typename Check>
-auto checked(const JsonField& field, Check check) {
-  try {
-    return check();
-  } catch (const UsageError& e) {
-    field.fail(e.problem(), e.remedy());
-  }
-}
-
-template <std::size_t Count>
-std::array<double, Count> numbers(const JsonField& field) {
-  field.requireSize(Count);
-  std::array<double, Count> values{};
-  for (std::size_t i = 0; i < Count; ++i)
-    values[i] = field.at(i).number();
-  return values;
-}
-
-RigidTransform readPose(const JsonField& field) {
-  const auto [x, y, z] = numbers<3>(field.at("position"));
-  const auto [qw, qx, qy, qz] = numbers<4>(field.at("quaternion"));
-  const RigidTransform translation{{1, 0, 0, 0}, {x, y, z}}, rotation{{qw, qx, qy, qz}, {}};
-  checked(field.at("position"), [&] { return checkedPose(translation); });
-  return {checked(field.at("quaternion"), [&] { return checkedPose(rotation); }).rotation,
-          translation.translation};
-}
-
-Colour readColour(const JsonField& field) {
-  field.requireSize(3);
-  const auto channel = [&](std::size_t i) { return static_cast<float>(field.at(i).numberWithin(0.0, 1.0)); };
-  return {channel(0), channel(1), channel(2)};
-}
-
 std::string readSha256(const JsonField& field) {
   std::string digits = field.text(64);
   const bool isHash = digits.size() == 64 && std::all_of(digits.begin(), digits.end(), [](unsigned char c) {
@@ -130,74 +95,55 @@ std::optional<std::size_t> readGroupIndex(const JsonField& field, std::size_t co
 /// Reads what version 3 adds to version 2.
 void readPlaceAndLook(const JsonField& field, std::size_t groupCount, PartEntry& entry) {
   entry.part.opacity = field.at("opacity").number();
-  checked(field.at("opacity"), [&] { checkOpacity(entry.part.opacity); });
+  checkedAt(field.at("opacity"), [&] { checkOpacity(entry.part.opacity); });
   entry.group = readGroupIndex(field.at("group"), groupCount, "give the number of a group, from 0, or null");
   const JsonField wasVisible = field.at("wasVisible");
   if (!wasVisible.isNull()) entry.part.wasVisible = wasVisible.isTrue();
 }
 
-/// Reads what version 4 adds to version 3.
-std::optional<glm::dvec3> readPivot(const JsonField& field) {
-  if (field.isNull()) return std::nullopt;
-  const auto [x, y, z] = numbers<3>(field);
-  const glm::dvec3 pivot(x, y, z);
-  checked(field, [&] { checkPosition(pivot); });
-  return pivot;
-}
-
-MeshRepairs readRepairs(const JsonField& field) {
-  if (field.size() > kMaxRepairs) field.fail(fmt::format("there are more than {} repairs", kMaxRepairs));
-  MeshRepairs repairs;
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    const JsonField each = field.at(i), size = each.at("size");
-    const std::optional<RepairKind> kind = repairNamed(each.at("kind").text(16));
-    if (!kind) {
-      each.at("kind").fail(
-          "this repair is not known",
-          R"(give "weld", "stitch", "clean", "orient", "fillHoles" or "dropShells", or open it with a newer Nearfit)");
-    }
-    repairs.push_back({*kind, hasSize(*kind) ? size.number() : 0.0});
-    checked(size, [&] { checkRepairs(std::span(&repairs.back(), 1)); });
-  }
-  return repairs;
-}
-
-void readShape(const JsonField& field, PartEntry& entry) {
-  const bool isDocument = isDocumentFile(entry.mesh);
-  if (field.isNull()) {
-    if (isDocument) field.fail("the part's file is a CAD document", "name one of its shapes");
-    return;
-  }
-  if (!isDocument) field.fail("the part's file is not a CAD document", "give null");
-  entry.shape = field.at("key").text(kMaxShapeKeyBytes);
-  if (entry.shape.empty()) field.at("key").fail("it is empty", "name a shape of the document");
-  entry.tessellation = {field.at("chord").number(), field.at("angle").number()};
-  checked(field, [&] { checkTessellation(entry.tessellation); });
-}
-
 PartEntry readPart(const JsonField& field, std::size_t groupCount, const fs::path& folder, int version) {
   PartEntry entry{field, {}, {}, {}, readSha256(field.at("sha256")), field.at("metresPerUnit").number()};
-  checked(field.at("metresPerUnit"), [&] { checkMetresPerUnit(entry.metresPerUnit); });
-  const std::string mesh = field.at("mesh").text(kMaxPathBytes);
-  if (mesh.empty()) field.at("mesh").fail("it is empty", "give the path of the mesh file");
-  entry.mesh = normalisedPath(folder / mesh);
+  checkedAt(field.at("metresPerUnit"), [&] { checkMetresPerUnit(entry.metresPerUnit); });
+  entry.mesh = readMeshPath(field.at("mesh"), folder);
   entry.part.name = field.at("name").text(kMaxPartNameBytes);
-  checked(field.at("name"), [&] { checkPartName(entry.part.name); });
+  checkedAt(field.at("name"), [&] { checkPartName(entry.part.name); });
   entry.part.worldFromPart = readPose(field);
   entry.part.colour = readColour(field.at("colour"));
   if (version >= 2) {
     entry.part.density = field.at("density").number();
-    checked(field.at("density"), [&] { checkDensity(entry.part.density); });
+    checkedAt(field.at("density"), [&] { checkDensity(entry.part.density); });
   }
   entry.part.isVisible = field.at("visible").isTrue();
   entry.part.isLocked = field.at("locked").isTrue();
   if (version >= 3) readPlaceAndLook(field, groupCount, entry);
   if (version >= 4) entry.part.pivot = readPivot(field.at("pivot"));
   if (version >= 6) {
-    readShape(field.at("shape"), entry);
+    ShapeOfFile shape = readShape(field.at("shape"), entry.mesh);
+    entry.shape = std::move(shape.key);
+    entry.tessellation = shape.tessellation;
     entry.repairs = readRepairs(field.at("repairs"));
   }
   return entry;
+}
+
+/// Reads the field "age" of each group, or of none.
+/// @param field  The array "groups".
+void readAges(const JsonField& field, std::vector<GroupEntry>& entries) {
+  const bool hasAges = !entries.empty() && field.at(0).has("age");
+  std::vector<bool> isTaken(entries.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    entries[i].age = i;
+    if (!hasAges) continue;
+    const JsonField place = field.at(i).at("age");
+    const double age = place.number();
+    if (!(age >= 0.0 && age < static_cast<double>(entries.size()) && age == std::floor(age)) ||
+        isTaken[static_cast<std::size_t>(age)]) {
+      place.fail(fmt::format("{} is not a place of its own among the {} groups", age, entries.size()),
+                 "number the groups from 0 by age, or leave all ages out");
+    }
+    entries[i].age = static_cast<std::size_t>(age);
+    isTaken[entries[i].age] = true;
+  }
 }
 
 /// @param field  The array "groups".
@@ -210,7 +156,7 @@ std::vector<GroupEntry> readGroups(const JsonField& field) {
     const JsonField place = field.at(i).at("group");
     GroupEntry& entry = entries[i];
     entry.group.name = field.at(i).at("name").text(kMaxGroupNameBytes);
-    checked(field.at(i).at("name"), [&] { checkGroupName(entry.group.name); });
+    checkedAt(field.at(i).at("name"), [&] { checkGroupName(entry.group.name); });
     entry.group.isLocked = entry.isLockedAnyhow = field.at(i).at("locked").isTrue();
     entry.parent = readGroupIndex(place, i, "give the number of an earlier group, from 0, or null");
     if (!entry.parent) continue;
@@ -220,6 +166,7 @@ std::vector<GroupEntry> readGroups(const JsonField& field) {
                  "move it to a higher level");
     entry.isLockedAnyhow = entry.isLockedAnyhow || entries[*entry.parent].isLockedAnyhow;
   }
+  readAges(field, entries);
   return entries;
 }
 
@@ -285,24 +232,6 @@ std::optional<std::size_t> readMovingGroup(const JsonField& field, const std::ve
   return index;
 }
 
-JointKind readJointKind(const JsonField& field) {
-  const std::optional<JointKind> kind = jointKindOf(field.text(16));
-  if (!kind) field.fail("this value is not known", R"(give "axis", "plane" or "point")");
-  return *kind;
-}
-
-JointFeature readJointFeature(const JsonField& field, JointKind kind) {
-  JointFeature feature;
-  const auto [x, y, z] = numbers<3>(field.at("point"));
-  feature.point = {x, y, z};
-  checked(field.at("point"), [&] { checkPosition(feature.point); });
-  if (kind == JointKind::ToPoint) return feature;
-  const auto [dx, dy, dz] = numbers<3>(field.at("direction"));
-  const glm::dvec3 direction(dx, dy, dz);
-  feature.direction = checked(field.at("direction"), [&] { return checkedDirection(direction); });
-  return feature;
-}
-
 /// A joint as in the file.
 struct JointEntry {
   JsonField field;
@@ -351,26 +280,8 @@ void addJoints(Scene& scene, const std::vector<JointEntry>& entries) {
     Joint joint = entry.joint;
     joint.part = parts[entry.part]->id;
     if (entry.base) joint.base = parts[*entry.base]->id;
-    checked(entry.field, [&] { scene.addJoint(joint); });
+    checkedAt(entry.field, [&] { scene.addJoint(joint); });
   }
-}
-
-/// @param field  The array "pairRules".
-std::vector<PairRule> readPairRules(const JsonField& field) {
-  const std::size_t count = field.size();
-  if (count > kMaxPairRules) field.fail(fmt::format("there are more than {} rules", kMaxPairRules));
-  std::vector<PairRule> rules;
-  for (std::size_t i = 0; i < count; ++i) {
-    const JsonField each = field.at(i);
-    const std::optional<PairRuleKind> kind = pairRuleNamed(each.at("kind").text(16));
-    if (!kind)
-      each.at("kind").fail("this value is not known",
-                           R"(give "leaveOut", "sameGroup", "touching" or "pressFit")");
-    rules.push_back({*kind, each.at("part").text(kMaxPatternBytes), each.at("other").text(kMaxPatternBytes),
-                     each.at("interference").number()});
-    checked(each, [&] { checkPairRule(rules.back()); });
-  }
-  return rules;
 }
 
 /// A record of a pair as in the file.
@@ -393,20 +304,7 @@ std::size_t readPartIndex(const JsonField& field, std::size_t count, std::option
 RecordEntry readPairRecord(const JsonField& field, std::size_t partCount) {
   RecordEntry entry{{}, readPartIndex(field.at("part"), partCount), 0};
   entry.other = readPartIndex(field.at("other"), partCount, entry.part);
-  const std::optional<PairVerdict> verdict = pairVerdictNamed(field.at("verdict").text(16));
-  if (!verdict)
-    field.at("verdict").fail("this value is not known",
-                             R"(give "clear", "near", "touching", "clash" or "contained")");
-  const std::optional<FindingState> state = findingStateNamed(field.at("state").text(16));
-  if (!state) field.at("state").fail("this value is not known", R"(give "new", "accepted" or "fixed")");
-  entry.record.verdict = *verdict;
-  entry.record.state = *state;
-  entry.record.distance = field.at("distance").number();
-  if (!field.at("depth").isNull()) entry.record.depth = field.at("depth").number();
-  entry.record.reason = field.at("reason").text(kMaxReasonBytes);
-  PairRecord ordered = entry.record;
-  ordered.pair = {PartId{0}, PartId{1}};
-  checked(field, [&] { checkPairRecord(ordered); });
+  entry.record = readFinding(field);
   return entry;
 }
 
@@ -516,12 +414,23 @@ void lockParts(Scene& scene, const std::vector<std::size_t>& indices) {
   }
 }
 
-/// Unlocked for now, so that its members can be added.
-Group placed(const GroupEntry& entry, const std::vector<GroupId>& ids) {
-  Group group = entry.group;
-  group.isLocked = false;
-  if (entry.parent) group.parent = ids[*entry.parent];
-  return group;
+/// Adds the groups, oldest first, and returns the ID of each entry. Unlocked for now, so that members can be added.
+std::vector<GroupId> addGroups(Scene& scene, const std::vector<GroupEntry>& entries) {
+  std::vector<std::size_t> byAge(entries.size());
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    byAge[entries[i].age] = i;
+  std::vector<Group> groups;
+  std::vector<std::optional<std::size_t>> parents;
+  for (const std::size_t i : byAge) {
+    groups.push_back(entries[i].group);
+    groups.back().isLocked = false;
+    parents.push_back(entries[i].parent ? std::optional(entries[*entries[i].parent].age) : std::nullopt);
+  }
+  const std::vector<GroupId> added = scene.addGroups(std::move(groups), parents);
+  std::vector<GroupId> ids;
+  for (const GroupEntry& entry : entries)
+    ids.push_back(added[entry.age]);
+  return ids;
 }
 
 void lockGroups(Scene& scene, const std::vector<GroupEntry>& entries, const std::vector<GroupId>& ids) {
@@ -565,9 +474,7 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress,
       version >= 7 ? readPairRecords(root.at("pairRecords"), entries.size()) : std::vector<RecordEntry>();
   const std::vector<std::size_t> lockedLater = unlockForJoints(entries, joints);
   GeometryLoader loader(entries, progress, changedMeshes);
-  std::vector<GroupId> ids;
-  for (const GroupEntry& entry : groups)
-    ids.push_back(scene.addGroup(placed(entry, ids)));
+  const std::vector<GroupId> ids = addGroups(scene, groups);
   std::vector<Part> parts;
   parts.reserve(entries.size());
   for (PartEntry& entry : entries) {

@@ -1,34 +1,21 @@
+#include <algorithm>
 #include <map>
 #include <utility>
+#include <vector>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_file_haptics.h"
+#include "core/scene/scene_json.h"
 #include "core/scene/scene_tree.h"
 #include "core/text/json_text.h"
-#include "core/text/utf8.h"
 
 namespace nearfit {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Path of the mesh relative to the scene file's folder, with `/` between names.
-std::string meshPath(const std::filesystem::path& mesh, const std::filesystem::path& sceneFile) {
-  std::filesystem::path path = mesh.lexically_relative(meshFolder(sceneFile));
-  if (path.empty()) path = mesh;
-  std::string text = path.generic_string();
-  // JSON can escape control characters, but must be UTF-8.
-  if (!isUtf8(text)) {
-    throw FileError(printableText(text), "the path of this mesh file is not UTF-8",
-                    "rename the file or its folder, then load it again");
-  }
-  return text;
-}
 
 /// Index of each group in the file.
 using GroupIndices = std::map<GroupId, std::size_t>;
@@ -39,6 +26,16 @@ Json indexJson(std::optional<GroupId> group, const GroupIndices& indices) {
   return group ? Json(indices.at(*group)) : Json();
 }
 
+/// Says which groups are older where the file's order, parents first, does not.
+void addAges(const Scene& scene, const GroupIndices& indices, Json& json) {
+  std::vector<std::size_t> places;
+  for (const Scene::GroupPtr& group : scene.groups())
+    places.push_back(indices.at(group->id));
+  if (std::ranges::is_sorted(places)) return;
+  for (std::size_t age = 0; age < places.size(); ++age)
+    json[places[age]]["age"] = age;
+}
+
 Json groupsJson(const Scene& scene, GroupIndices& indices) {
   Json json = Json::array();
   visitGroups(scene, [&](const Group& group, std::size_t) {
@@ -46,52 +43,27 @@ Json groupsJson(const Scene& scene, GroupIndices& indices) {
     json.push_back(
         {{"name", group.name}, {"group", indexJson(group.parent, indices)}, {"locked", group.isLocked}});
   });
+  addAges(scene, indices, json);
   return json;
-}
-
-Json repairsJson(const MeshRepairs& repairs) {
-  Json json = Json::array();
-  for (const MeshRepair& repair : repairs)
-    json.push_back({{"kind", wordOf(repair.kind)}, {"size", repair.size}});
-  return json;
-}
-
-/// Null for a mesh file.
-Json shapeJson(const PartGeometry& geometry) {
-  if (geometry.shapeKey.empty()) return {};
-  return {{"key", geometry.shapeKey},
-          {"chord", geometry.tessellation.chord},
-          {"angle", geometry.tessellation.angle}};
 }
 
 Json partJson(const Part& part, const GroupIndices& groups, const std::filesystem::path& sceneFile) {
-  const glm::dvec3& t = part.worldFromPart.translation;
-  const glm::dquat& q = part.worldFromPart.rotation;
   Json json;
   json["name"] = part.name;
-  json["mesh"] = meshPath(part.geometry->file, sceneFile);
+  json["mesh"] = meshPathFrom(part.geometry->file, sceneFile);
   json["sha256"] = part.geometry->sha256;
   json["metresPerUnit"] = part.geometry->metresPerUnit;
   json["shape"] = shapeJson(*part.geometry);
   json["repairs"] = repairsJson(part.geometry->repairs);
-  json["position"] = {t.x, t.y, t.z};
-  json["quaternion"] = {q.w, q.x, q.y, q.z};
-  json["colour"] = {shortestDouble(part.colour.r), shortestDouble(part.colour.g),
-                    shortestDouble(part.colour.b)};
+  addPose(json, part.worldFromPart);
+  json["colour"] = colourJson(part.colour);
   json["density"] = part.density;
   json["opacity"] = part.opacity;
-  json["pivot"] = part.pivot ? Json({part.pivot->x, part.pivot->y, part.pivot->z}) : Json();
+  json["pivot"] = pivotJson(part.pivot);
   json["visible"] = part.isVisible;
   json["locked"] = part.isLocked;
   json["group"] = indexJson(part.group, groups);
   json["wasVisible"] = part.wasVisible ? Json(*part.wasVisible) : Json();
-  return json;
-}
-
-Json featureJson(const JointFeature& feature, JointKind kind) {
-  const glm::dvec3 &p = feature.point, &d = feature.direction;
-  Json json = {{"point", {p.x, p.y, p.z}}};
-  if (kind != JointKind::ToPoint) json["direction"] = {d.x, d.y, d.z};
   return json;
 }
 
@@ -100,28 +72,17 @@ Json jointJson(const Joint& joint, const Scene& scene) {
   json["kind"] = wordOf(joint.kind);
   json["part"] = scene.get(joint.part).name;
   json["base"] = joint.base ? Json(scene.get(*joint.base).name) : Json();
-  json["onPart"] = featureJson(joint.onPart, joint.kind);
-  json["onBase"] = featureJson(joint.onBase, joint.kind);
+  json["onPart"] = jointFeatureJson(joint.onPart, joint.kind);
+  json["onBase"] = jointFeatureJson(joint.onBase, joint.kind);
   json["on"] = joint.isOn;
   return json;
-}
-
-Json pairRuleJson(const PairRule& rule) {
-  return {{"kind", wordOf(rule.kind)},
-          {"part", rule.part},
-          {"other", rule.other},
-          {"interference", rule.interference}};
 }
 
 Json pairRecordJson(const PairRecord& record, const PartIndices& indices) {
   Json json;
   json["part"] = indices.at(record.pair.part);
   json["other"] = indices.at(record.pair.other);
-  json["verdict"] = wordOf(record.verdict);
-  json["distance"] = record.distance;
-  json["depth"] = record.depth ? Json(*record.depth) : Json();
-  json["state"] = wordOf(record.state);
-  json["reason"] = record.reason;
+  addFinding(json, record);
   return json;
 }
 
@@ -147,9 +108,7 @@ std::string sceneFileText(const Scene& scene, const std::filesystem::path& file)
   json["joints"] = Json::array();
   for (const Joint& joint : scene.joints())
     json["joints"].push_back(jointJson(joint, scene));
-  json["pairRules"] = Json::array();
-  for (const PairRule& rule : scene.pairRules())
-    json["pairRules"].push_back(pairRuleJson(rule));
+  json["pairRules"] = pairRulesJson(scene.pairRules());
   json["pairRecords"] = Json::array();
   for (const PairRecord& record : scene.pairRecords())
     json["pairRecords"].push_back(pairRecordJson(record, parts));

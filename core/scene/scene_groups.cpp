@@ -86,6 +86,35 @@ GroupId Scene::addGroup(Group group) {
   return GroupId{nextGroupId_++};
 }
 
+std::vector<GroupId> Scene::addGroups(std::vector<Group> added,
+                                      const std::vector<std::optional<std::size_t>>& parents) {
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    checkGroupName(added[i].name);
+    if (groups_.size() + i >= kMaxGroups) {
+      throw UsageError(quoted(added[i]), fmt::format("the scene has {} groups already", kMaxGroups),
+                       "delete some first");
+    }
+    std::size_t depth = 0;
+    for (std::optional<std::size_t> at = i; at; at = parents[*at]) {
+      // One that contains itself is nested without end.
+      if (++depth > kMaxGroupDepth) {
+        throw UsageError(quoted(added[i]),
+                         fmt::format("groups would be nested more than {} deep", kMaxGroupDepth),
+                         "move it to a higher level");
+      }
+    }
+  }
+  std::vector<GroupId> ids;
+  for (std::size_t i = 0; i < added.size(); ++i)
+    ids.push_back(GroupId{nextGroupId_++});
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    added[i].id = ids[i];
+    added[i].parent = parents[i] ? std::optional(ids[*parents[i]]) : std::nullopt;
+    groups_.push_back(std::make_shared<const Group>(std::move(added[i])));
+  }
+  return ids;
+}
+
 void Scene::replaceGroup(Group group) {
   const std::size_t index = indexOf(group.id);
   const Group& before = *groups_[index];

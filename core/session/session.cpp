@@ -39,8 +39,10 @@ const char* labelOfChange(const HapticSettings& from, const HapticSettings& to) 
 
 }  // namespace
 
-void Session::commit(Scene scene, Step step) {
-  past_.push_back(std::exchange(current_, {std::move(scene), std::move(step), nextSerial_++}));
+void Session::commit(Scene scene, Step step, SessionCommand command) {
+  const std::uint64_t serial = nextSerial_++;
+  past_.push_back(std::exchange(
+      current_, {std::move(scene), std::move(step), serial, serial, std::move(command), false}));
   if (past_.size() > kMaxUndo) past_.pop_front();
   future_.clear();
   events_.notify();
@@ -48,32 +50,17 @@ void Session::commit(Scene scene, Step step) {
 
 PartId Session::addPart(PartGeometryPtr geometry, const std::string& name,
                         const RigidTransform& worldFromPart) {
-  Scene next = scene();
-  Part part;
-  part.name = name;
-  part.geometry = std::move(geometry);
-  part.worldFromPart = worldFromPart;
-  part.colour = next.nextColour();
-  const PartId id = next.add(std::move(part));
-  const std::string label = "Add " + next.find(id)->name;
-  commit(std::move(next), label);
-  return id;
+  return addNodes({{}, {{std::move(geometry), name, worldFromPart, {}, {}}}}).parts.front();
 }
 
 std::vector<PartId> Session::addParts(const std::vector<NewPart>& parts) {
-  if (parts.empty()) return {};
-  Scene next = scene();
-  const std::vector<Colour> colours = next.nextColours(parts.size());
-  std::vector<Part> all(parts.size());
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    all[i].name = parts[i].name;
-    all[i].geometry = parts[i].geometry;
-    all[i].colour = colours[i];
-  }
-  const SceneNodes added{next.addAll(std::move(all)), {}};
-  const std::string label = "Add " + nameOf(next, added);
-  commit(std::move(next), label);
-  return added.parts;
+  // Each gets a colour of its own, those that share a geometry too.
+  const std::vector<Colour> colours = scene().nextColours(parts.size());
+  NewNodes nodes;
+  nodes.parts.reserve(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    nodes.parts.push_back({parts[i].geometry, parts[i].name, {}, colours[i], {}});
+  return addNodes(nodes).parts;
 }
 
 SceneNodes Session::addNodes(const NewNodes& nodes) {
@@ -81,7 +68,7 @@ SceneNodes Session::addNodes(const NewNodes& nodes) {
   Scene next = scene();
   const SceneNodes added = addTo(next, nodes);
   const std::string label = "Add " + nameOf(next, added);
-  commit(std::move(next), label);
+  commit(std::move(next), label, steps::AddNodes{nodes});
   return added;
 }
 
@@ -91,7 +78,7 @@ void Session::setMovingPart(std::optional<PartId> id) {
   next.setMovingPart(id);
   const std::string label =
       id ? fmt::format("Make {} the moving part", next.find(*id)->name) : "Clear the moving part";
-  commit(std::move(next), label);
+  commit(std::move(next), label, steps::SetMovingPart{id});
 }
 
 void Session::setMovingGroup(GroupId id) {
@@ -99,7 +86,7 @@ void Session::setMovingGroup(GroupId id) {
   Scene next = scene();
   next.setMovingGroup(id);
   const std::string label = fmt::format("Make {} the moving group", next.findGroup(id)->name);
-  commit(std::move(next), label);
+  commit(std::move(next), label, steps::SetMovingGroup{id});
 }
 
 void Session::moveMoving(const RigidTransform& worldFromPart, const std::string& verb) {
@@ -111,11 +98,12 @@ void Session::setHaptics(const HapticSettings& haptics, const std::string& label
   next.setHaptics(haptics);
   if (next.haptics() == scene().haptics()) return;
   const std::string change = label.empty() ? labelOfChange(scene().haptics(), next.haptics()) : label;
-  commit(std::move(next), change);
+  commit(std::move(next), change, steps::SetHaptics{haptics, label});
 }
 
 void Session::begin(Scene scene, const std::filesystem::path& file) {
-  current_ = {std::move(scene), {}, nextSerial_++};
+  const std::uint64_t serial = nextSerial_++;
+  current_ = {std::move(scene), {}, serial, serial, {}, false};
   past_.clear();
   future_.clear();
   file_ = file;
@@ -174,6 +162,12 @@ std::vector<Session::Step> Session::history() const {
   for (const State& state : std::views::reverse(future_))
     steps.push_back(state.step);
   return steps;
+}
+
+Session::Reached Session::reached(std::size_t index) const {
+  const State& state = index < past_.size() ? past_[index] : current_;
+  return {state.stepSerial, state.serial, state.scene, state.command ? &*state.command : nullptr,
+          state.restatesRecords};
 }
 
 void Session::goTo(std::size_t index) {

@@ -14,6 +14,7 @@
 #include "core/scene/scene.h"
 #include "core/scene/scene_tree.h"
 #include "core/session/scene_events.h"
+#include "core/session/session_command.h"
 
 namespace nearfit {
 
@@ -28,6 +29,9 @@ class Session {
   static constexpr std::size_t kMaxUndo = 1000;
 
   const Scene& scene() const noexcept { return current_.scene; }
+
+  /// Carries out a command that is given as a value, by the function below that it stands for; throws what that throws.
+  void apply(const SessionCommand& command);
 
   /// Adds a part for a loaded mesh in the next colour of the palette. Appends a number if the name is taken.
   PartId addPart(PartGeometryPtr geometry, const std::string& name, const RigidTransform& worldFromPart = {});
@@ -55,10 +59,7 @@ class Session {
   void setColour(PartId id, const Colour& colour) { setColour(std::vector{id}, colour); }
   /// @param density  [kg/m^3]; kMinDensity to kMaxDensity.
   void setDensity(PartId id, double density) { setDensity(std::vector{id}, density); }
-  struct NewGeometry {
-    PartId part;
-    PartGeometryPtr geometry;
-  };
+  using NewGeometry = steps::NewGeometry;
   /// Replaces the geometry of parts whose files changed, in one step; poses and joints stay. Also works on locked
   /// parts, since the file decides what it holds.
   void reloadParts(const std::vector<NewGeometry>& parts);
@@ -113,10 +114,7 @@ class Session {
   void setOpacity(const std::vector<PartId>& ids, double opacity);
   /// @param density  [kg/m^3]; kMinDensity to kMaxDensity.
   void setDensity(const std::vector<PartId>& ids, double density);
-  struct NewPivot {
-    PartId part;
-    std::optional<glm::dvec3> inPart;  ///< As Part::pivot.
-  };
+  using NewPivot = steps::NewPivot;
   /// Sets or, with std::nullopt, resets pivots.
   void setPivots(const std::vector<NewPivot>& pivots);
   /// Shows only these parts, locked ones included. endIsolation() restores the visibility from
@@ -180,6 +178,18 @@ class Session {
   std::size_t historyIndex() const noexcept { return past_.size(); }
   /// Undoes or redoes to state `index` of history(), as one change; no-op if out of range.
   void goTo(std::size_t index);
+  /// A state that undo reaches, or the current one, and the way to it, for who records the session. Valid until the
+  /// session changes.
+  struct Reached {
+    std::uint64_t step;             ///< Unique ID of the step that led there; ascends from state to state.
+    std::uint64_t state;            ///< As stateSerial().
+    const Scene& scene;             ///< After the step.
+    const SessionCommand* command;  ///< What the step did to the scene before; null for the initial state.
+    /// Records of pairs may be others than the command left.
+    bool restatesRecords;
+  };
+  /// @param index  In history(); at most historyIndex().
+  Reached reached(std::size_t index) const;
   /// Unique ID of the current state. Undo and redo restore it.
   std::uint64_t stateSerial() const noexcept { return current_.serial; }
   /// Number of steps since the last save or reset; if that state is no longer reachable, the
@@ -196,25 +206,33 @@ class Session {
   struct State {
     Scene scene;
     Step step;
-    std::uint64_t serial = 0;  ///< Unique per state; identifies the saved one.
+    std::uint64_t serial = 0;                    ///< Unique per state; identifies the saved one.
+    std::uint64_t stepSerial = 0;                ///< As `serial` was when the step was done.
+    std::optional<SessionCommand> command = {};  ///< None for the initial state.
+    bool restatesRecords = false;                ///< See Reached.
   };
   /// Makes `scene` the current state, one undo step after the last, and notifies.
-  void commit(Scene scene, Step step);
-  void commit(Scene scene, std::string label) { commit(std::move(scene), Step{std::move(label)}); }
+  /// @param command  What was done, as apply() does it.
+  void commit(Scene scene, Step step, SessionCommand command);
+  void commit(Scene scene, std::string label, SessionCommand command) {
+    commit(std::move(scene), Step{std::move(label)}, std::move(command));
+  }
   /// Applies `change` to a copy of each part, and then `finish`, if there is one, to the scene that has them. The label
   /// is the verb and the names of the parts that changed.
-  void change(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change,
-              const std::function<void(Scene&)>& finish = {});
-  void change(const std::vector<PartId>& ids, const char* verb, const std::function<void(Part&)>& change) {
-    this->change(ids, Step{verb}, change);
+  void change(const std::vector<PartId>& ids, Step verb, SessionCommand command,
+              const std::function<void(Part&)>& change, const std::function<void(Scene&)>& finish = {});
+  void change(const std::vector<PartId>& ids, const char* verb, SessionCommand command,
+              const std::function<void(Part&)>& change) {
+    this->change(ids, Step{verb}, std::move(command), change);
   }
   /// Like change(). Throws UsageError if a part is locked, even if nothing would change.
-  void changeUnlocked(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change,
+  void changeUnlocked(const std::vector<PartId>& ids, Step verb, SessionCommand command,
+                      const std::function<void(Part&)>& change,
                       const std::function<void(Scene&)>& finish = {});
-  void changeUnlocked(const std::vector<PartId>& ids, const char* verb,
+  void changeUnlocked(const std::vector<PartId>& ids, const char* verb, SessionCommand command,
                       const std::function<void(Part&)>& change,
                       const std::function<void(Scene&)>& finish = {}) {
-    changeUnlocked(ids, Step{verb}, change, finish);
+    changeUnlocked(ids, Step{verb}, std::move(command), change, finish);
   }
   /// Replaces the scene and clears undo, without notifying.
   void begin(Scene scene, const std::filesystem::path& file);

@@ -118,7 +118,8 @@ void Session::setLocked(const SceneNodes& nodes, bool locked) {
     changed.parts.push_back(id);
   }
   if (changed.isEmpty()) return;
-  commit(std::move(next), (locked ? "Lock " : "Unlock ") + nameOf(scene(), changed));
+  commit(std::move(next), (locked ? "Lock " : "Unlock ") + nameOf(scene(), changed),
+         steps::SetLocked{nodes, locked});
 }
 
 void Session::renameGroup(GroupId id, const std::string& name) {
@@ -130,7 +131,7 @@ void Session::renameGroup(GroupId id, const std::string& name) {
   group.name = name;
   Scene next = scene();
   next.replaceGroup(std::move(group));
-  commit(std::move(next), label);
+  commit(std::move(next), label, steps::RenameGroup{id, name});
 }
 
 void Session::deleteNodes(const SceneNodes& nodes) {
@@ -140,7 +141,7 @@ void Session::deleteNodes(const SceneNodes& nodes) {
     next.remove(id);
   for (const GroupId id : groupsOf(scene(), nodes) | std::views::reverse)
     next.removeGroup(id);
-  commit(std::move(next), "Delete " + nameOf(scene(), nodes));
+  commit(std::move(next), "Delete " + nameOf(scene(), nodes), steps::DeleteNodes{nodes});
 }
 
 SceneNodes Session::duplicate(const SceneNodes& nodes) {
@@ -148,7 +149,7 @@ SceneNodes Session::duplicate(const SceneNodes& nodes) {
   if (outer.isEmpty()) return {};
   Scene next = scene();
   SceneNodes copies = Copier(next, outer).copy();
-  commit(std::move(next), "Duplicate " + nameOf(scene(), outer));
+  commit(std::move(next), "Duplicate " + nameOf(scene(), outer), steps::Duplicate{nodes});
   return copies;
 }
 
@@ -160,7 +161,8 @@ GroupId Session::group(const SceneNodes& nodes, const std::string& name) {
   group.parent = commonGroup(next, outer);
   const GroupId id = next.addGroup(std::move(group));
   putInto(next, outer, id);
-  commit(std::move(next), "Group " + (outer.isEmpty() ? std::string("(empty)") : nameOf(scene(), outer)));
+  commit(std::move(next), "Group " + (outer.isEmpty() ? std::string("(empty)") : nameOf(scene(), outer)),
+         steps::GroupNodes{nodes, name});
   return id;
 }
 
@@ -175,7 +177,7 @@ void Session::ungroup(const std::vector<GroupId>& ids) {
     putInto(next, childrenOf(next, id), group->parent);
     next.removeGroup(id);
   }
-  commit(std::move(next), label);
+  commit(std::move(next), label, steps::Ungroup{ids});
 }
 
 void Session::regroup(const SceneNodes& nodes, std::optional<GroupId> target) {
@@ -189,7 +191,8 @@ void Session::regroup(const SceneNodes& nodes, std::optional<GroupId> target) {
   Scene next = scene();
   putInto(next, moving, target);
   const std::string where = target ? "into " + next.findGroup(*target)->name : "to the top level";
-  commit(std::move(next), fmt::format("Move {} {}", nameOf(scene(), moving), where));
+  commit(std::move(next), fmt::format("Move {} {}", nameOf(scene(), moving), where),
+         steps::Regroup{nodes, target});
 }
 
 }  // namespace nearfit

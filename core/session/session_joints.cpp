@@ -58,7 +58,7 @@ JointId Session::addJoint(const Joint& joint, const RigidTransform& worldFromPar
             glm::length(rotationVector(to.rotation * glm::conjugate(from.rotation)))};
   part.worldFromPart = to;
   next.replace(std::move(part));
-  commit(std::move(next), std::move(step));
+  commit(std::move(next), std::move(step), steps::AddJoint{joint, worldFromPart});
   return id;
 }
 
@@ -68,7 +68,7 @@ void Session::removeJoints(const std::vector<JointId>& ids) {
   Scene next = scene();
   for (const JointId id : removed)
     next.removeJoint(id);
-  commit(std::move(next), "Remove " + nameOfJoints(scene(), removed));
+  commit(std::move(next), "Remove " + nameOfJoints(scene(), removed), steps::RemoveJoints{removed});
 }
 
 void Session::setJointsOn(const std::vector<JointId>& ids, bool on) {
@@ -81,7 +81,8 @@ void Session::setJointsOn(const std::vector<JointId>& ids, bool on) {
     changed.push_back(id);
   }
   if (changed.empty()) return;
-  commit(std::move(next), (on ? "Turn on " : "Turn off ") + nameOfJoints(scene(), changed));
+  commit(std::move(next), (on ? "Turn on " : "Turn off ") + nameOfJoints(scene(), changed),
+         steps::SetJointsOn{changed, on});
 }
 
 }  // namespace nearfit

@@ -50,8 +50,8 @@ std::map<PartId, PartGeometryPtr> byPart(const std::vector<Session::NewGeometry>
 
 }  // namespace
 
-void Session::change(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change,
-                     const std::function<void(Scene&)>& finish) {
+void Session::change(const std::vector<PartId>& ids, Step verb, SessionCommand command,
+                     const std::function<void(Part&)>& change, const std::function<void(Scene&)>& finish) {
   Scene next = scene();
   SceneNodes changed;
   for (const PartId id : ids) {
@@ -69,15 +69,15 @@ void Session::change(const std::vector<PartId>& ids, Step verb, const std::funct
       std::ranges::all_of(changed.parts, [&](PartId id) { return scene().isMoving(id); });
   if (isWholeGroup) changed = {{}, {*group}};
   verb.label += " " + nameOf(scene(), changed);
-  commit(std::move(next), std::move(verb));
+  commit(std::move(next), std::move(verb), std::move(command));
 }
 
-void Session::changeUnlocked(const std::vector<PartId>& ids, Step verb,
+void Session::changeUnlocked(const std::vector<PartId>& ids, Step verb, SessionCommand command,
                              const std::function<void(Part&)>& change,
                              const std::function<void(Scene&)>& finish) {
   for (const PartId id : ids)
     scene().requireUnlocked(scene().get(id));
-  this->change(ids, std::move(verb), change, finish);
+  this->change(ids, std::move(verb), std::move(command), change, finish);
 }
 
 void Session::renamePart(PartId id, const std::string& name) {
@@ -88,7 +88,7 @@ void Session::renamePart(PartId id, const std::string& name) {
   part.name = name;
   Scene next = scene();
   next.replace(std::move(part));
-  commit(std::move(next), label);
+  commit(std::move(next), label, steps::RenamePart{id, name});
 }
 
 void Session::moveParts(const std::vector<PartId>& ids, PartId lead, const RigidTransform& worldFromLead,
@@ -96,32 +96,36 @@ void Session::moveParts(const std::vector<PartId>& ids, PartId lead, const Rigid
   const Part& before = scene().get(lead);
   const RigidTransform from = before.worldFromPart;
   const RigidTransform to = checkedPose(worldFromLead);
+  steps::MoveParts command{ids, lead, worldFromLead, verb};
   if (from == to) {
     // Nothing moves, but locked parts must still be refused.
-    return changeUnlocked(ids, verb.c_str(), [](Part&) {});
+    return changeUnlocked(ids, verb.c_str(), std::move(command), [](Part&) {});
   }
   const glm::dvec3 centre = before.geometry != nullptr ? before.geometry->mass.centre : glm::dvec3(0.0);
   const double shift = glm::distance(from.applyToPoint(centre), to.applyToPoint(centre));
   const double angle = glm::length(rotationVector(to.rotation * glm::conjugate(from.rotation)));
-  changeUnlocked(ids, Step{verb, shift, angle}, [&](Part& part) {
+  changeUnlocked(ids, Step{verb, shift, angle}, std::move(command), [&](Part& part) {
     part.worldFromPart = part.id == lead ? to : moved(part.worldFromPart, from, to);
   });
 }
 
 void Session::setVisible(const std::vector<PartId>& ids, bool visible) {
-  change(ids, visible ? "Show" : "Hide", [visible](Part& part) { part.isVisible = visible; });
+  change(ids, visible ? "Show" : "Hide", steps::SetVisible{ids, visible},
+         [visible](Part& part) { part.isVisible = visible; });
 }
 
 void Session::setColour(const std::vector<PartId>& ids, const Colour& colour) {
-  change(ids, "Recolour", [&colour](Part& part) { part.colour = colour; });
+  change(ids, "Recolour", steps::SetColour{ids, colour}, [&colour](Part& part) { part.colour = colour; });
 }
 
 void Session::setOpacity(const std::vector<PartId>& ids, double opacity) {
-  change(ids, "Change the transparency of", [opacity](Part& part) { part.opacity = opacity; });
+  change(ids, "Change the transparency of", steps::SetOpacity{ids, opacity},
+         [opacity](Part& part) { part.opacity = opacity; });
 }
 
 void Session::setDensity(const std::vector<PartId>& ids, double density) {
-  changeUnlocked(ids, "Change the density of", [density](Part& part) { part.density = density; });
+  changeUnlocked(ids, "Change the density of", steps::SetDensity{ids, density},
+                 [density](Part& part) { part.density = density; });
 }
 
 void Session::setPivots(const std::vector<NewPivot>& pivots) {
@@ -133,17 +137,19 @@ void Session::setPivots(const std::vector<NewPivot>& pivots) {
     places.try_emplace(each.part, each.inPart);
   }
   changeUnlocked(partsOf(pivots), isReset ? "Reset the pivot of" : "Move the pivot of",
-                 [&](Part& part) { part.pivot = places.at(part.id); });
+                 steps::SetPivots{pivots}, [&](Part& part) { part.pivot = places.at(part.id); });
 }
 
 void Session::reloadParts(const std::vector<NewGeometry>& parts) {
   const std::map<PartId, PartGeometryPtr> geometries = byPart(parts);
-  change(partsOf(parts), "Reload", [&](Part& part) { part.geometry = geometries.at(part.id); });
+  change(partsOf(parts), "Reload", steps::ReloadParts{parts},
+         [&](Part& part) { part.geometry = geometries.at(part.id); });
 }
 
 void Session::repairParts(const std::vector<NewGeometry>& parts) {
   const std::map<PartId, PartGeometryPtr> geometries = byPart(parts);
-  changeUnlocked(partsOf(parts), "Repair", [&](Part& part) { part.geometry = geometries.at(part.id); });
+  changeUnlocked(partsOf(parts), "Repair", steps::RepairParts{parts},
+                 [&](Part& part) { part.geometry = geometries.at(part.id); });
 }
 
 void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
@@ -171,12 +177,13 @@ void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
       if (mayBeInWrongUnit(before.geometry->file)) next.scaleWorldJointsOf(id, factorOf(before));
     }
   };
-  changeUnlocked(partsOf(parts), "Change the unit of", rescale, scaleJoints);
+  changeUnlocked(partsOf(parts), "Change the unit of", steps::RescaleParts{parts}, rescale, scaleJoints);
 }
 
 void Session::refineParts(const std::vector<NewGeometry>& parts) {
   const std::map<PartId, PartGeometryPtr> geometries = byPart(parts);
-  changeUnlocked(partsOf(parts), "Refine", [&](Part& part) { part.geometry = geometries.at(part.id); });
+  changeUnlocked(partsOf(parts), "Refine", steps::RefineParts{parts},
+                 [&](Part& part) { part.geometry = geometries.at(part.id); });
 }
 
 void Session::isolate(const std::vector<PartId>& ids) {
@@ -185,14 +192,14 @@ void Session::isolate(const std::vector<PartId>& ids) {
   const bool isSameView = std::ranges::equal(next.parts(), scene().parts(),
                                              [](const auto& a, const auto& b) { return isSame(*a, *b); });
   if (isSameView) return;
-  commit(std::move(next), "Isolate " + nameOf(scene(), {ids, {}}));
+  commit(std::move(next), "Isolate " + nameOf(scene(), {ids, {}}), steps::Isolate{ids});
 }
 
 void Session::endIsolation() {
   if (!scene().isIsolated()) return;
   Scene next = scene();
   next.endIsolation();
-  commit(std::move(next), "End isolation");
+  commit(std::move(next), "End isolation", steps::EndIsolation{});
 }
 
 }  // namespace nearfit

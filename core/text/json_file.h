@@ -42,6 +42,7 @@ class JsonField {
   /// Throws unless this is an array of `count` elements.
   void requireSize(std::size_t count) const;
   bool isNull() const noexcept { return value_->is_null(); }
+  bool isObject() const noexcept { return value_->is_object(); }
   /// A finite number.
   double number() const;
   /// A finite number from `lower` to `upper`, both included.

@@ -12,6 +12,7 @@
 #include "ui/files/file_commands.h"
 #include "ui/panels/clearance/map_panel.h"
 #include "ui/panels/feel/feel_control.h"
+#include "ui/panels/history/command_record_action.h"
 #include "ui/panels/history/undo_actions.h"
 #include "ui/panels/parts/joint_actions.h"
 #include "ui/panels/parts/part_commands.h"
@@ -95,6 +96,7 @@ void MainMenus::setUpEditMenu() {
                     parts.selectAll, commands_.boxSelect.action(), parts.selectNone});
   parts.tree().addTo(*menu);
   menu->addMenu(&parts.joints().menu());
+  menu->addActions({menu->addSeparator(), &commands_.recordCommands});
 }
 
 void MainMenus::setUpViewMenu(QMenu* panels, QMenu* units) {

@@ -15,6 +15,7 @@ namespace nearfit::ui {
 class AlignTool;
 class BoxSelect;
 class ClearanceMapPanel;
+class CommandRecordAction;
 class DropTool;
 class Exporter;
 class FeelControl;
@@ -65,6 +66,7 @@ class MainMenus : public QObject {
     Exporter& exporter;
     PictureTaker& pictures;
     UndoActions& undo;
+    CommandRecordAction& recordCommands;
     PartCommands& parts;
     BoxSelect& boxSelect;
     ViewActions& view;

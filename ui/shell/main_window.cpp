@@ -26,6 +26,7 @@
 #include "ui/panels/clearance/map_panel.h"
 #include "ui/panels/feel/feel_control.h"
 #include "ui/panels/feel/feel_panel.h"
+#include "ui/panels/history/command_record_action.h"
 #include "ui/panels/history/history_panel.h"
 #include "ui/panels/history/undo_actions.h"
 #include "ui/panels/parts/part_commands.h"
@@ -148,6 +149,7 @@ void MainWindow::makePanels() {
   feel_->panel().setTakeInHand(*parts_->takeInHand);
   history_ = new HistoryPanel(session_, *document_, this);
   undo_ = new UndoActions(session_, *document_, *hand_, this);
+  commandRecord_ = new CommandRecordAction(session_, this);
   QDockWidget* parts = addDock("partsDock", tr("Parts"), partsPanel, Qt::LeftDockWidgetArea);
   QDockWidget* history = addDock("historyDock", tr("History"), history_, Qt::LeftDockWidgetArea);
   tabifyDockWidget(parts, history);
@@ -295,9 +297,9 @@ void MainWindow::makeToolsAndMenus() {
   makeReviewPanels();
   suggestion_ = new PathSuggestion({session_, *hand_, *viewport_}, this);
   const auto* menus = new MainMenus(
-      this, {*files_,     *exporter, *pictures,      *undo_,       *parts_, *box,        *viewActions_,
-             *measure,    *section,  *placing_,      *align,       *drop,   *feel_,      *handControl_,
-             *recording_, *replay_,  *clearanceMap_, *sceneCheck_, *paths_, *suggestion_},
+      this, {*files_,       *exporter,   *pictures, *undo_,         *commandRecord_, *parts_, *box,
+             *viewActions_, *measure,    *section,  *placing_,      *align,          *drop,   *feel_,
+             *handControl_, *recording_, *replay_,  *clearanceMap_, *sceneCheck_,    *paths_, *suggestion_},
       panelsMenu_, units_);
   shell_ = new WindowShell(this, *files_, menus->viewMenu(), menus->helpMenu());
   listenTo(*placing_, *handControl_, *selectedPose_, *align, *drop, *box, *exporter, *pictures);
@@ -309,7 +311,7 @@ void MainWindow::makeToolsAndMenus() {
 }
 
 void MainWindow::connectCommands() {
-  listenTo(*files_, *parts_, *feel_, *undo_, *suggestion_);
+  listenTo(*files_, *parts_, *feel_, *undo_, *commandRecord_, *suggestion_);
   for (const NumberField* field : findChildren<NumberField*>())
     connect(field, &NumberField::noted, this, &MainWindow::showNote);
   feel_->loadPresets();
@@ -323,6 +325,8 @@ void MainWindow::connectCommands() {
   connect(replay_, &Replay::opened, suggestion_, &PathSuggestion::close);
   connect(suggestion_, &PathSuggestion::feelRequested, feel_->start, &QAction::trigger);
   connect(undo_, &UndoActions::sceneNeeded, placing_, &PlacingTools::commit);
+  connect(commandRecord_, &CommandRecordAction::sceneNeeded, posePanel_, &PosePanel::commit);
+  connect(commandRecord_, &CommandRecordAction::sceneNeeded, placing_, &PlacingTools::commit);
   connect(parts_, &PartCommands::servoStopRequested, feel_, &FeelControl::servoStopRequested);
   connect(parts_, &PartCommands::servoStartRequested, feel_->start, &QAction::trigger);
   connect(parts_, &PartCommands::unitChangeRequested, files_, &FileCommands::changeUnit);

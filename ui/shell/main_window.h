@@ -13,6 +13,7 @@ class QMenu;
 namespace nearfit::ui {
 
 class ClearanceMapPanel;
+class CommandRecordAction;
 class Document;
 class FeelControl;
 class FileCommands;
@@ -127,6 +128,7 @@ class MainWindow : public QMainWindow {
   FeelControl* feel_ = nullptr;
   HistoryPanel* history_ = nullptr;
   UndoActions* undo_ = nullptr;
+  CommandRecordAction* commandRecord_ = nullptr;
   ViewActions* viewActions_ = nullptr;
   ClearanceMapPanel* clearanceMap_ = nullptr;
   PlotPanel* plots_ = nullptr;

@@ -195,7 +195,9 @@ void DesktopCommandLineTest::outputsReplaceNeitherInputsNorEachOther() {
        {QStringList{screenshot, scene}, QStringList{scene, screenshot, nameOf("link.png")},
         QStringList{scene, record, nameOf("./fit.nearfit")},
         QStringList{scene, screenshot, picture, record, nameOf("./a.png")},
-        QStringList{scene, QStringLiteral("--device"), QStringLiteral("replay:") + felt, record, felt}}) {
+        QStringList{scene, QStringLiteral("--device"), QStringLiteral("replay:") + felt, record, felt},
+        QStringList{QStringLiteral("--script"), felt, record, felt},
+        QStringList{scene, QStringLiteral("--script"), felt}}) {
     const ProgramOutcome outcome = run(arguments);
     QVERIFY2(outcome.code == 2, qPrintable(arguments.join(QChar(' ')) + outcome.err));
   }

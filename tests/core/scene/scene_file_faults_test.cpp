@@ -46,6 +46,12 @@ TEST_F(SceneFileFaults, InvalidRepairSaysWhich) {
       << "all becomes one vertex";
 }
 
+TEST_F(SceneFileFaults, TwoGroupsAreNotOfOneAge) {
+  for (Json& group : json_["groups"])
+    group["age"] = 1;
+  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("groups[1].age: 1 is not a place of its own"));
+}
+
 TEST_F(SceneFileFaults, MissingMeshSaysWhichFileAndPart) {
   std::filesystem::remove(folder_.path() / "meshes/peg.obj");
   EXPECT_THAT(errorOf(json_.dump()), AllOf(HasSubstr("fit.nearfit: parts[1].mesh: "),
@@ -161,6 +167,10 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
       {"/groups/1/group", -1, "groups[1].group: -1 is not the number of one of the 1 groups"},
       {"/groups/2/group", 0.5, "groups[2].group: 0.5 is not the number of one of the 2 groups"},
       {"/groups/2/group", "Spare", "groups[2].group: it is of type string"},
+      {"/groups/0/age", 0, "groups[1].age: it is missing"},
+      {"/groups/0/age", 3, "groups[0].age: 3 is not a place of its own among the 3 groups"},
+      {"/groups/0/age", -1, "groups[0].age: -1 is not a place of its own"},
+      {"/groups/0/age", 0.5, "groups[0].age: 0.5 is not a place of its own"},
       {"/parts/1/group", 3, "parts[1].group: 3 is not the number of one of the 3 groups"},
       {"/parts/1/group", 1e300, "parts[1].group: 1e+300 is not the number of one of the 3 groups"},
       {"/parts/1/group", false, "parts[1].group: it is of type boolean"},

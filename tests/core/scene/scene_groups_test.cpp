@@ -223,5 +223,26 @@ TEST(SceneGroups, IsolationIsTakenBackExactly) {
   EXPECT_EQ(shown(), "acd");
 }
 
+TEST(SceneGroups, GroupsAreAddedTogetherWithParentsThatAreYounger) {
+  Scene scene;
+  addGroup(scene, "first");
+  const auto ids = scene.addGroups({{{}, "inner", {}, false}, {{}, "outer", {}, false}}, {1, std::nullopt});
+  ASSERT_EQ(ids.size(), 2U);
+  EXPECT_LT(ids[0], ids[1]);
+  EXPECT_EQ(scene.findGroup(ids[0])->parent, ids[1]);
+  EXPECT_EQ(scene.findGroup(ids[1])->parent, std::nullopt);
+  EXPECT_EQ(scene.groups().size(), 3U);
+
+  const auto refused = [&](std::vector<Group> groups,
+                           const std::vector<std::optional<std::size_t>>& parents) {
+    EXPECT_THROW(scene.addGroups(std::move(groups), parents), UsageError);
+    EXPECT_EQ(scene.groups().size(), 3U);
+  };
+  refused({{{}, "a", {}, false}, {{}, "b", {}, false}}, {1, 0});
+  refused({{{}, "", {}, false}}, {std::nullopt});
+  refused(std::vector<Group>(kMaxGroups, {{}, "a", {}, false}),
+          std::vector<std::optional<std::size_t>>(kMaxGroups));
+}
+
 }  // namespace
 }  // namespace nearfit::scene_groups_test
