@@ -219,7 +219,7 @@ PARTS = (
     _stress_part("hours", 4, "--mode", "proxy", "--hours", "8", may_miss=True),
     _stress_part("hand-springs", 2, "--mode", SPRINGS, "--ticks", "200000", "--certify", "none", "--threads", "2", may_miss=True),
     # Its usual periods are those of 5,000, 2,000, 1,000, 500, 200 and 100 Hz.
-    _stress_part("rest-springs", 3, "--mode", SPRINGS, "--seconds", "2", may_miss=True),
+    _stress_part("rest-springs", 3, "--mode", SPRINGS, "--seconds", "3", may_miss=True),
     _stress_part("limit-springs", 2, "--mode", SPRINGS, may_miss=True),
     _stress_part("hours-springs", 2, "--mode", SPRINGS, "--hours", "1", may_miss=True),
     _stress_part("oracle", 3, "--poses", "500000", "--threads", "2", file="oracle.txt"),
