@@ -196,7 +196,10 @@ void addSweepCommand(CLI::App& program) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber)
       ->type_name("N");
-  command->add_option("--seed", options->seed, "Seed of the draws")->capture_default_str()->type_name("N");
+  command->add_option("--seed", options->seed, "Seed of the draws")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
   command
       ->add_option("--measures", options->measures,
                    "Compute these only: of distance, minima and overlap, separated by commas")

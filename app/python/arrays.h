@@ -62,7 +62,8 @@ using VectorView = nanobind::ndarray<nanobind::numpy, const T, nanobind::ndim<1>
 template <class T>
 using TableView = nanobind::ndarray<nanobind::numpy, const T, nanobind::ndim<2>>;
 
-/// Gives a vector's memory to an array of that shape, without a copy.
+/// Gives a vector's memory to an array of that shape, without a copy. A property that returns one needs rv_policy::automatic:
+/// by default its object would be kept as the owner, and the array has one.
 template <class Array, class T>
 Array arrayOf(std::vector<T> values, std::initializer_list<std::size_t> shape) {
   auto kept = std::make_unique<std::vector<T>>(std::move(values));

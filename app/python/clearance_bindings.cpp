@@ -80,11 +80,11 @@ void bindClearance(nb::module_& module) {
           "Min distance of the surfaces [m]; 0 if they meet.")
       .def_prop_ro(
           "point_part", [](const Finding& f) { return pointArray(f.found.partPoint); },
-          "(3,) float64: nearest point on the first part [m].")
+          nb::rv_policy::automatic, "(3,) float64: nearest point on the first part [m].")
       .def_prop_ro(
           "point_other", [](const Finding& f) { return pointArray(f.found.otherPoint); },
-          "(3,) float64: nearest point on the other part [m].")
-      .def_prop_ro("minima", &minimaOf,
+          nb::rv_policy::automatic, "(3,) float64: nearest point on the other part [m].")
+      .def_prop_ro("minima", &minimaOf, nb::rv_policy::automatic,
                    "(n, 7) float64: minima below the threshold, nearest first: distance, point on the first "
                    "part, point on "
                    "the other [m].")

@@ -117,7 +117,7 @@ void bindMesh(nb::module_& module) {
       .def_prop_ro(
           "warnings", [](const Mesh& mesh) { return mesh.geometry->report.warnings; },
           "A sentence for each defect that was found on reading or building.")
-      .def_prop_ro("centre", &centreOf, "(3,) float64: its centre of mass [m].")
+      .def_prop_ro("centre", &centreOf, nb::rv_policy::automatic, "(3,) float64: its centre of mass [m].")
       .def_prop_ro(
           "volume", [](const Mesh& mesh) { return mesh.geometry->mass.volume; },
           "[m^3]; of its oriented box if it is not closed.")

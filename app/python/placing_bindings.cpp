@@ -150,34 +150,34 @@ void bindPlacing(nb::module_& module) {
   nb::class_<Placement>(
       module, "Placement",
       "Record of a part that was led along a path: k ticks of 1 ms, in the world frame. len() is k.")
-      .def_prop_ro("times", &timesOf, "(k,) float64 [s].")
+      .def_prop_ro("times", &timesOf, nb::rv_policy::automatic, "(k,) float64 [s].")
       .def_prop_ro(
-          "poses", [](const Placement& p) { return matricesOf(proxiesOf(p)); },
+          "poses", [](const Placement& p) { return matricesOf(proxiesOf(p)); }, nb::rv_policy::automatic,
           "(k, 4, 4) float64: where the part is, world from part.")
       .def_prop_ro(
-          "proxies", [](const Placement& p) { return rowsOf(proxiesOf(p)); },
+          "proxies", [](const Placement& p) { return rowsOf(proxiesOf(p)); }, nb::rv_policy::automatic,
           "(k, 7) float64: the same as tx ty tz [m] qw qx qy qz, as in a recording, to the last bit.")
       .def_prop_ro(
           "handles",
           [](const Placement& p) {
             return rowsOf(eachRow<RigidTransform>(p, [](const MotionRow& row) { return row.handle; }));
           },
-          "(k, 7) float64: where the hand wants it.")
+          nb::rv_policy::automatic, "(k, 7) float64: where the hand wants it.")
       .def_prop_ro(
-          "wrenches", &wrenchesOfTicks,
+          "wrenches", &wrenchesOfTicks, nb::rv_policy::automatic,
           "(k, 6) float64: force [N] and torque [N m] about the part's centre of mass, as sent to a device.")
-      .def_prop_ro("distances", &distancesOfTicks,
+      .def_prop_ro("distances", &distancesOfTicks, nb::rv_policy::automatic,
                    "(k,) float64: min distance [m]; infinity if nothing is within the cutoff.")
       .def_prop_ro(
-          "lmds", [](const Placement& p) { return countsOf(p, &MotionRow::lmds); },
+          "lmds", [](const Placement& p) { return countsOf(p, &MotionRow::lmds); }, nb::rv_policy::automatic,
           "(k,) uint32: number of minima within the cutoff.")
       .def_prop_ro(
           "contacts", [](const Placement& p) { return countsOf(p, &MotionRow::contacts); },
-          "(k,) uint32: minima that held the part.")
+          nb::rv_policy::automatic, "(k,) uint32: minima that held the part.")
       .def_prop_ro(
           "overlapping", [](const Placement& p) { return countsOf(p, &MotionRow::overlapping); },
-          "(k,) uint32: parts that it overlaps, which it does not feel.")
-      .def_prop_ro("clamped", &clampedTicks, "(k,) bool: a limit cut the wrench.")
+          nb::rv_policy::automatic, "(k,) uint32: parts that it overlaps, which it does not feel.")
+      .def_prop_ro("clamped", &clampedTicks, nb::rv_policy::automatic, "(k,) bool: a limit cut the wrench.")
       .def("write_csv", &writePlacement, "path"_a, "Writes the recording as nearfit-cli place --record does.")
       .def("__len__", [](const Placement& p) { return p.rows.size(); })
       .def("__repr__", &placementText);

@@ -104,7 +104,8 @@ using Poses = std::span<const RigidTransform>;
 
 Lmds lmdsOf(HeldScene& scene, const std::string& part, const ArrayLike& poses, double cutoff, bool isTracked,
             std::size_t threads) {
-  Lmds lmds{.table = {}, .names = scene.queries(part)->sharedNames()};
+  Lmds lmds;
+  lmds.names = scene.queries(part)->sharedNames();
   lmds.table = ask(scene, part, poses, {.isTracked = isTracked, .threads = threads},
                    [cutoff](PartQueries& queries, Poses where, const BatchOptions& options) {
                      return queries.minima(where, cutoff, options);

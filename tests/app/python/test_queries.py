@@ -104,7 +104,7 @@ def test_numbers_are_those_of_the_command_line_to_the_last_bit(saved, cli, json_
     wrenches = nearfit.wrench(scene, "Tip", rows, 0.03, 250.0)
     overlaps = nearfit.overlap(scene, "Tip", rows)
     assert len(lines) == len(found) == 60
-    assert sum(len(line["lmds"]) for line in lines) > 60
+    assert sum(len(line["lmds"]) for line in lines) > 30
     for i, line in enumerate(lines):
         one = found[i]
         assert one.distances.tolist() == [m["distance"] for m in line["lmds"]]
@@ -130,7 +130,7 @@ def test_threads_and_tracking_change_no_bit():
     scene = three_bodies()
     rows = random_rows(600, 10, 0.03, away=0.03)
     one = nearfit.lmds(scene, "Tip", rows, 0.02, threads=1)
-    assert len(one.distances) > 600 and set(one.parts) == {0, 1}
+    assert len(one.distances) > 300 and set(one.parts) == {0, 1}
     assert one.part_names == ["Block", "Other"]
     for options in ({"threads": 2}, {"threads": 0}, {"tracked": True, "threads": 1}, {"tracked": True, "threads": 2}):
         assert same(nearfit.lmds(scene, "Tip", rows, 0.02, **options), one), options

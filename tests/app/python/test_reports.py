@@ -115,7 +115,10 @@ def test_a_path_that_meets_something_gets_no_certificate(tmp_path):
 def test_exports_are_those_of_the_command_line(saved, cli, tmp_path):
     scene, file, _, _ = saved
     for suffix in ("csv", "stl", "obj", "ply", "glb"):
-        ours, theirs = tmp_path / f"ours.{suffix}", tmp_path / f"theirs.{suffix}"
+        # Of the same name, which some formats hold.
+        ours, theirs = tmp_path / "ours" / f"fit.{suffix}", tmp_path / "theirs" / f"fit.{suffix}"
+        for made in (ours, theirs):
+            made.parent.mkdir(exist_ok=True)
         assert nearfit.export(scene, ours) == []
         cli("export", file, theirs)
         assert ours.read_bytes() == theirs.read_bytes(), suffix

@@ -414,9 +414,11 @@ class RandomSession : public ScriptTest, public ::testing::WithParamInterface<un
       case 6:
         session_.renamePart(anyPart(), "Part " + std::to_string(below(8)));
         break;
-      case 7:
-        session_.moveParts({anyPart()}, anyPart(), pose());
+      case 7: {
+        const PartId lead = anyPart();
+        session_.moveParts({anyPart(), lead}, lead, pose());
         break;
+      }
       case 8:
         session_.setColour(anyPart(), {float(number() + 0.5), 0.1F, 0.7F});
         break;

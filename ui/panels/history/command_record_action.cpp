@@ -18,7 +18,7 @@ CommandRecordAction::CommandRecordAction(Session& session, QWidget* window)
     : QAction(window), window_(window), recorder_(session) {
   setObjectName(QStringLiteral("recordCommands"));
   setCheckable(true);
-  setText(tr("Record &commands…"));
+  setText(tr("Record commands…"));
   setHelp(*this, tr("Record the commands that change the scene to a script until you stop"));
   connect(this, &QAction::triggered, this, [this](bool isOn) {
     emit sceneNeeded();
@@ -88,8 +88,8 @@ void CommandRecordAction::update() {
   setChecked(recorder_.isRecording());
   const QString shown =
       recorder_.isRecording()
-          ? tr("Stop recording &commands (%1)").arg(static_cast<qulonglong>(recorder_.steps()))
-          : tr("Record &commands…");
+          ? tr("Stop recording commands (%1)").arg(static_cast<qulonglong>(recorder_.steps()))
+          : tr("Record commands…");
   if (text() != shown) setText(shown);
 }
 
