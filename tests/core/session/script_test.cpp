@@ -148,7 +148,7 @@ class EachStep : public ScriptTest {
           }}},
         {"colour", {[=, this] { session_.setColour({peg(), id("Block")}, {0.1F, 1.0F / 3.0F, 0.7F}); }}},
         {"opacity", {[=, this] { session_.setOpacity({peg()}, 0.1 + 0.2); }}},
-        {"density", {[=, this] { session_.setDensity({peg()}, 7850.1); }}},
+        {"density", {[=, this] { session_.setDensity(peg(), 7850.1); }}},
         {"visible", {[=, this] { session_.setVisible({peg(), id("Pin")}, false); }}},
         {"pivot",
          {[=, this] { session_.setPivots({{peg(), glm::dvec3(0.1 + 0.2, 0, -1e-17)}, {id("Pin"), {}}}); }}},
