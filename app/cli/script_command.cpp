@@ -11,6 +11,7 @@
 #include "app/cli/output.h"
 #include "app/cli/progress_line.h"
 #include "core/files/atomic_write.h"
+#include "core/scene/part_files.h"
 #include "core/scene/scene_file.h"
 #include "core/session/session_script.h"
 
@@ -45,6 +46,7 @@ void runScript(const ScriptOptions& options) {
     line.show(fraction);
     return !InterruptGuard::isInterrupted();
   });
+  checkTarget(options.out, partFiles(session.scene()));
   session.save(options.out);
 }
 

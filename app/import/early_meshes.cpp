@@ -43,11 +43,17 @@ struct EarlyMeshes::Job {
 
 EarlyMeshes::EarlyMeshes(const MeshRequest& like, std::size_t threads)
     : like_(std::make_unique<const MeshRequest>(like)) {
+  const std::size_t count = std::min(threads, kMaxThreads);
+  threads_.reserve(count);
   try {
-    for (std::size_t i = 0; i < std::min(threads, kMaxThreads); ++i)
+    while (threads_.size() < count)
       threads_.emplace_back([this] { work(); });
   } catch (const std::system_error&) {
-    // Those that the system gives must do.
+    // It works with the threads that were started.
+  } catch (...) {
+    // They wait for work, and would be waited for.
+    end();
+    throw;
   }
 }
 
@@ -57,7 +63,7 @@ EarlyMeshes::~EarlyMeshes() {
 
 void EarlyMeshes::add(const TopoDS_Shape& solid) {
   if (threads_.empty() || solid.IsNull() || solid.ShapeType() != TopAbs_SOLID) return;
-  // As the piece of a product is taken out of its place.
+  // Without its place, like the product that take() is asked for.
   TopoDS_Shape shell = onlyShellOf(solid.Located(TopLoc_Location()));
   // A solid that shares something is left out, also if it has several shells: those after it may share with it alone.
   if (!isNew(solid) || shell.IsNull() || !hasFewFaces(shell)) return;

@@ -13,7 +13,7 @@ void HeldScene::setPose(const std::string& name, const RigidTransform& worldFrom
   Part moved = part(name);
   moved.worldFromPart = worldFromPart;
   scene_.replace(std::move(moved));
-  // Where a part is does not count in queries of the part itself.
+  // A part's own pose does not affect queries about it.
   std::erase_if(queries_, [&name](const auto& kept) { return kept.first != name; });
 }
 

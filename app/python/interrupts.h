@@ -42,9 +42,15 @@ auto withoutLock(const Work& work) {
   Interrupts interrupts;
   const ProgressCallback progress = interrupts.callback();
   try {
-    const nanobind::gil_scoped_release unlocked;
-    return work(progress);
-  } catch (const Cancelled&) {
+    auto result = [&] {
+      const nanobind::gil_scoped_release unlocked;
+      return work(progress);
+    }();
+    // The work may have ended before it took notice.
+    if (PyErr_Occurred() != nullptr) throw nanobind::python_error();
+    return result;
+  } catch (const Error&) {
+    // An interrupt stops the work with Cancelled, or with what another thread threw meanwhile.
     if (PyErr_Occurred() != nullptr) throw nanobind::python_error();
     throw;
   }

@@ -28,7 +28,7 @@ using namespace nb::literals;
 /// Period of the servo [s].
 constexpr double kServoPeriod = 1e-3;
 
-/// What each tick of a placement gave.
+/// Rows of a placement, one for each tick.
 struct Placement {
   std::vector<MotionRow> rows;
 };

@@ -21,8 +21,8 @@ namespace {
 
 /// Poses that a thread takes at a time: enough that taking them costs nothing, few enough that all end together.
 constexpr std::size_t kStretch = 16;
-/// Poses that are followed in a row. Fixed, so that what a pose is found by does not depend on the number of threads; a
-/// list serves some tens of poses.
+/// Poses that are followed in a row. Fixed, so that results do not depend on the number of threads; a list serves
+/// some tens of poses.
 constexpr std::size_t kTrackedStretch = 256;
 /// Share of all lengths involved that rounding may take from the distance of two spheres; thousands of roundings.
 constexpr double kSphereRounding = 1e-12;
@@ -61,8 +61,9 @@ PartQueries::PartQueries(const Scene& scene, PartId part, const ProgressCallback
   partComponents_ = componentsOf(part_.get());
   for (const Scene::PartPtr& other : scene.parts()) {
     if (other->id == part || !other->isVisible || !hasTriangles(*other)) continue;
+    std::shared_ptr<ComponentsOnDemand> shared = componentsOf(other->geometry.get());
     others_.push_back({.geometry = other->geometry,
-                       .components = componentsOf(other->geometry.get()),
+                       .components = std::move(shared),
                        .worldFromOther = other->worldFromPart,
                        .isAtOrigin = isIdentity(other->worldFromPart),
                        .centre = {},
@@ -201,7 +202,7 @@ MinimaTable PartQueries::minima(std::span<const RigidTransform> poses, double cu
                  MinimaTable& table = tables[begin / length];
                  for (std::size_t i = begin; i < end; ++i) {
                    const bool isWhole = findAt(poses[i], springs, space, followed);
-                   // Those of one part are in order already, and equal ones keep theirs.
+                   // Minima of one part are sorted already; equal ones keep their order.
                    if (others_.size() > 1) {
                      std::ranges::stable_sort(space.found, {},
                                               [](const FoundLmd& found) { return found.lmd.distance; });

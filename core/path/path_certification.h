@@ -17,12 +17,13 @@ struct CertificationFiles {
   std::filesystem::path certificate;  ///< To be written (*.nfcert).
 };
 
-/// What a certification found.
+/// Result of a certification.
 struct PathCertification {
   double separation = 0.0;  ///< [m]
-  /// Of the path; pairs of parts that were proven apart, and the stretches that prove it. Zero, but for the poses, if the path
-  /// is not proven free.
-  std::size_t poses = 0, pairs = 0, stretches = 0;
+  std::size_t poses = 0;    ///< Number of poses of the path.
+  std::size_t pairs =
+      0;  ///< Number of pairs of parts that were proven apart; 0 if the path is not proven free.
+  std::size_t stretches = 0;              ///< Number of stretches that prove it; 0 if it is not proven free.
   std::optional<UnprovenPlace> unproven;  ///< The first such place; no value if the path is proven free.
   std::string part, other;                ///< Names of its parts.
 
@@ -44,7 +45,7 @@ struct VerificationFiles {
   bool isWithoutPath = false;  ///< Check no path file that is only named in the certificate.
 };
 
-/// What a verification found.
+/// Result of a verification.
 struct PathVerification {
   std::string problem;      ///< Why it is refused, in words; empty if everything is proven.
   double separation = 0.0;  ///< [m]

@@ -159,9 +159,14 @@ std::vector<PairRule> readPairRules(const JsonField& field) {
     if (!kind)
       each.at("kind").fail("this value is not known",
                            R"(give "leaveOut", "sameGroup", "touching" or "pressFit")");
-    rules.push_back({*kind, each.at("part").text(kMaxPatternBytes), each.at("other").text(kMaxPatternBytes),
-                     each.at("interference").number()});
-    checkedAt(each, [&] { checkPairRule(rules.back()); });
+    // Field by field: GCC 12 destroys a member twice where a later initialiser within the braces throws.
+    PairRule rule;
+    rule.kind = *kind;
+    rule.part = each.at("part").text(kMaxPatternBytes);
+    rule.other = each.at("other").text(kMaxPatternBytes);
+    rule.interference = each.at("interference").number();
+    checkedAt(each, [&] { checkPairRule(rule); });
+    rules.push_back(std::move(rule));
   }
   return rules;
 }

@@ -232,8 +232,12 @@ class CommandWriter {
   }
   void addGeometries(CommandJson& json, const std::vector<steps::NewGeometry>& renewed) {
     CommandJson parts = CommandJson::array();
-    for (const steps::NewGeometry& each : renewed)
-      parts.push_back({{"part", partJson(each.part)}, {"file", fileJson(each.geometry)}});
+    for (const steps::NewGeometry& each : renewed) {
+      CommandJson part = CommandJson::object();
+      part["part"] = partJson(each.part);
+      part["file"] = fileJson(each.geometry);
+      parts.push_back(std::move(part));
+    }
     json["files"] = std::move(files_);
     json["parts"] = std::move(parts);
   }

@@ -37,6 +37,10 @@ void ScriptRecorder::start(const std::filesystem::path& file) {
     if (!session_.file().empty() && isSameTarget(target, session_.file()))
       throw UsageError(target.string(), "this is the file of the open scene", "record to another file");
   }
+  // Who agreed to replace a script agreed to replace its start scene, and no other.
+  if (!std::filesystem::exists(file) && std::filesystem::exists(startFile))
+    throw UsageError(startFile.string(), "the recording's start would replace this scene",
+                     "record under another name");
   // A folder that nothing can be written to is better found now than at the end.
   atomicWrite(file, scriptHead({}) + "\n");
   file_ = file;
@@ -85,6 +89,10 @@ void ScriptRecorder::stop() {
   if (!isRecording_) return;
   const std::filesystem::path startFile = startFileOf(file_);
   const bool isFromEmpty = sceneFileText(start_, startFile) == sceneFileText({}, startFile);
+  if (!isFromEmpty && !session_.file().empty() && isSameTarget(startFile, session_.file()))
+    throw UsageError(startFile.string(),
+                     "the scene was saved to this file, which is for the start of the recording",
+                     "save the scene to another file, which leaves this one to the recording");
   std::string text = scriptHead(isFromEmpty ? std::nullopt : std::optional(startFile)) + "\n";
   for (const Entry& entry : entries_) {
     for (const std::string* line : {&entry.command, &entry.records})

@@ -19,16 +19,17 @@ class ScriptRecorder {
   explicit ScriptRecorder(const Session& session) : session_(session) {}
 
   /// Starts to record to a file, from the present scene; a recording that runs is dropped. Throws FileError if the file
-  /// cannot be written, UsageError if it, or the file for the start, is the session's own.
+  /// cannot be written, UsageError if it, or the file for the start, is the session's own, or if a file for the start is
+  /// there although the script is not.
   void start(const std::filesystem::path& file);
   /// Takes in what has changed since the last call. To be called after each change of the session, from a listener.
   /// Another scene in the session is not followed: endsHere() is true from then on. Throws as commandJson(), if a mesh
   /// has a path that is not UTF-8; may be called again.
   void follow();
   /// Writes the script, and beside it the scene that it starts from if that is not empty, and ends the recording. Throws
-  /// FileError; the recording then goes on.
+  /// FileError, or UsageError if the scene was saved to the file for the start; the recording then goes on.
   void stop();
-  /// Ends the recording without a file.
+  /// Ends the recording; the file keeps what start() wrote, a script without commands.
   void drop() noexcept { isRecording_ = false; }
 
   bool isRecording() const noexcept { return isRecording_; }

@@ -88,7 +88,7 @@ void closeDefaultFolder(const fs::path& folder) {
 struct Room {
   std::uint64_t maxBytes = 0, bytes = 0;
 };
-/// Of what is free: several processes may fill a folder at once.
+/// Share of the free bytes that one process may write: several may fill a folder at once.
 constexpr std::uint64_t kRoomShare = 4;
 
 std::mutex roomMutex;

@@ -70,5 +70,14 @@ TEST_F(ScriptCommand, WrongUseIsRefused) {
   EXPECT_EQ(runCli({"script", script, "-o", folder_.path().string()}).exitCode, 1);
 }
 
+TEST_F(ScriptCommand, AMeshThatTheScriptReadsIsNotReplaced) {
+  const std::string script = write(
+      R"({"do": "add", "files": [{"mesh": "cube.obj", "metresPerUnit": 0.001}], "parts": [{"name": "Small", "file": 0}]})"
+      "\n");
+  const auto size = fs::file_size(path("cube.obj"));
+  EXPECT_EQ(runCli({"script", script, "-o", path("cube.obj")}).exitCode, 2);
+  EXPECT_EQ(fs::file_size(path("cube.obj")), size);
+}
+
 }  // namespace
 }  // namespace nearfit::test::script_command_test

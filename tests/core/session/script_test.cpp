@@ -361,6 +361,41 @@ TEST_F(ScriptTest, TheFileOfTheOpenSceneIsNotReplaced) {
   EXPECT_FALSE(recorder_.isRecording());
 }
 
+TEST_F(ScriptTest, ASceneThatWasSavedWhereTheStartGoesIsNotReplaced) {
+  session_.addPart(block(), "Block");
+  recorder_.start(script_);
+  session_.renamePart(id("Block"), "Base");
+  session_.save(ScriptRecorder::startFileOf(script_));
+  EXPECT_THROW(recorder_.stop(), UsageError);
+  EXPECT_TRUE(recorder_.isRecording()) << "nothing is lost";
+  EXPECT_EQ(
+      sceneFileText(readSceneFile(ScriptRecorder::startFileOf(script_)), folder_.path() / "out.nearfit"),
+      textOf(session_));
+  session_.save(folder_.path() / "elsewhere.nearfit");
+  recorder_.stop();
+  expectSameAfterReplay();
+}
+
+TEST_F(ScriptTest, ASceneThatIsThereAlreadyIsNotReplacedByTheStart) {
+  const fs::path there =
+      folder_.write(ScriptRecorder::startFileOf(script_).filename().string(), "somebody's");
+  session_.addPart(block(), "Block");
+  EXPECT_THROW(recorder_.start(script_), UsageError);
+  EXPECT_FALSE(fs::exists(script_));
+  // With its script it is a recording's own.
+  folder_.write(script_.filename().string(), "a former recording");
+  EXPECT_NO_THROW(recorder_.start(script_));
+}
+
+TEST_F(ScriptTest, ARuleThatBreaksOffIsRefused) {
+  fill();
+  const std::string head = scriptHead({}) + "\n";
+  // Longer than a string keeps within itself: what was read before the fault is freed once.
+  folder_.write("session.jsonl", head + R"({"do":"rules","rules":[{"kind":"touching","part":")" +
+                                     std::string(64, 'x') + R"("}]})" + "\n");
+  EXPECT_THROW(replay(readScript(script_), session_), FileError);
+}
+
 /// Ages of groups once got lost in scene files, and with them the order of groups that come to stand side by side.
 TEST_F(ScriptTest, AGroupThatIsYoungerThanItsMembersKeepsItsPlace) {
   session_.addPart(block(), "Block");

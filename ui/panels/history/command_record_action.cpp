@@ -36,7 +36,7 @@ CommandRecordAction::~CommandRecordAction() {
   try {
     recorder_.stop();
   } catch (...) {
-    // The window is gone, and with it the place to say so; the file holds no more than it did.
+    // The window is gone, and with it the place to say so; the file holds a script without commands.
   }
 }
 
@@ -69,8 +69,8 @@ void CommandRecordAction::stop() {
   const auto steps = static_cast<int>(recorder_.steps());
   if (attempt(tr("The recorded commands could not be written."), [this] { recorder_.stop(); })) {
     emit noted(tr("Recorded %n command(s) to %1", nullptr, steps).arg(name));
-  } else {
-    // Else the next scene would fail again, and without end.
+  } else if (recorder_.endsHere()) {
+    // Its scene is gone: there is nothing to go on with.
     recorder_.drop();
   }
   update();
