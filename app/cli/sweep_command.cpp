@@ -38,7 +38,8 @@ constexpr const char* kSweepFooter =
     "the number of minima below the threshold and whether it overlaps another part to Parquet files in the "
     "folder.\n"
     "A sweep that was stopped goes on where it stopped, by the same command.\n"
-    "Needs the Python package nearfit, which runs it: pip install nearfit[sweep].\n"
+    "Needs the Python package nearfit, which runs it: pip install '.[sweep]' in the folder of nearfit's "
+    "sources.\n"
     "Example: nearfit-cli sweep pump.nearfit --parts Rotor,Cover --poses p.csv --threshold 1mm --cutoff 5mm "
     "-o "
     "out";
@@ -90,8 +91,10 @@ void checkPackages(const std::string& python) {
   const int code = runSilently(python, kPackageProbe);
   if (code == 0) return;
   if (code == kMissingPackage)
-    throw Error(python, "it has no package nearfit with what sweeps need",
-                "run pip install nearfit[sweep], or name another interpreter with --python");
+    throw Error(
+        python, "it has no package nearfit with what sweeps need",
+        "run pip install '.[sweep]' in the folder of nearfit's sources, or name another interpreter with "
+        "--python");
   throw Error(python, "it does not run a Python program", "name an interpreter of Python 3 with --python");
 }
 

@@ -21,6 +21,10 @@ FIRST_BATCH = 16
 MAX_BATCH = 4096
 # A batch that takes less of the piece's time than this can be doubled without being late.
 BATCH_SHARE = 1 / 20
+# A piece's columns, names included, have to fit into memory.
+MAX_PIECE_ROWS = 1 << 20
+# Names stand in each row: so many of this many bytes are less than the 2 GiB of a column of text. Part names are shorter.
+MAX_NAME_BYTES = 1024
 # A mesh as delivered: its fingerprint, counts of vertices and triangles, then coordinates [m] and indices.
 MESH_HEAD = struct.Struct("<64sQQ")
 # Poses as delivered: numbers in each, 7 (translation [m], quaternion) or 16 (matrix), then these.
@@ -117,13 +121,14 @@ class Forgotten(KeyError):
 
 
 class Store:
-    """What a worker keeps by content: meshes with their hierarchies, poses and specifications, those least used forgotten when
+    """Store of a worker, by content: meshes with their hierarchies, poses and specifications, those least used forgotten when
     they take more than `limit` bytes as delivered. It forgets nothing that the scene at hand needs. For several threads."""
 
     def __init__(self):
         self._lock = threading.RLock()
         self._kept = collections.OrderedDict()
         self._sizes = {}
+        self._bytes = 0
         self._scenes = {}
         self.limit = 0
 
@@ -139,22 +144,24 @@ class Store:
                 if name not in self._kept:
                     self._kept[name] = (kind, blob)
                     self._sizes[name] = len(blob)
+                    self._bytes += len(blob)
                 self._kept.move_to_end(name)
             self._forget(set(blobs))
 
     def _forget(self, spared):
         spared = spared | self._in_use()
         for name in list(self._kept):
-            if sum(self._sizes.values()) <= self.limit:
+            if self._bytes <= self.limit:
                 return
             if name not in spared:
-                del self._kept[name], self._sizes[name]
+                del self._kept[name]
+                self._bytes -= self._sizes.pop(name)
 
     def _in_use(self):
         return {name for kept in self._scenes.values() for name in (kept["key"][0], *kept["key"][3])}
 
     def get(self, name):
-        """What was delivered, made of its bytes at the first call. Raises Forgotten."""
+        """The mesh, poses or specification of a digest, made of its bytes at the first call. Raises Forgotten."""
         with self._lock:
             if name not in self._kept:
                 raise Forgotten(name)
@@ -176,7 +183,7 @@ class Store:
     def bytes(self):
         """Bytes of what is kept, as delivered."""
         with self._lock:
-            return sum(self._sizes.values())
+            return self._bytes
 
     def scene(self, sweep, spec, variant, draw, part):
         """The scene of a variant and a draw, for queries of a part (a name). Each thread keeps the last one: rows of one scene
@@ -325,7 +332,7 @@ def key_columns(spec, begin, end):
 
 
 def head_of(sweep, begin, end):
-    """What a piece's file says that it is."""
+    """Metadata of a piece's file: its sweep and its rows."""
     return {b"nearfit.sweep": sweep.encode(), b"nearfit.rows": f"{begin}-{end}".encode()}
 
 

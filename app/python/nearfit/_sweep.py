@@ -15,12 +15,13 @@ import time
 import numpy as np
 
 from . import _pieces
+from ._pieces import MAX_NAME_BYTES, MAX_PIECE_ROWS
 from ._sweep_folder import PIECES, SweepFolder, piece_name
 
-REMEDY = "pip install nearfit[sweep]"
+# No name on PyPI: whoever registered it there would be installed.
+REMEDY = "pip install '.[sweep]' in the folder of nearfit's sources"
 # A piece is worth its overhead (a message, a file, a sync: milliseconds), and is short enough that little is lost with it.
 PIECE_SECONDS = 5.0
-MAX_PIECE_ROWS = 1 << 20
 # Rows of the first pieces, before anything is measured; a piece that turns out long ends in time by itself.
 FIRST_ROWS = 4096
 # Below this the overhead of a piece outweighs that its work can be shared.
@@ -38,8 +39,11 @@ MAX_ASKED = 4
 MAX_ATTEMPTS = 8
 # After this without any worker the sweep ends with an error.
 NO_WORKER_SECONDS = 120.0
-# Numbers of a rotation or a quaternion may be rounded to three digits; those that make queries then are the package's affair.
-POSE_SLACK = 2e-3
+# Rounding to three digits: a little less than kQuaternionSlack and kMatrixSlack (1e-3), so that no pose that passes here is refused
+# by a worker after hours.
+POSE_SLACK = 0.999e-3
+# Equals kMaxPosition (core/scene/part.h) [m].
+MAX_POSITION = 1e9
 # How often the number of workers and late pieces are looked at.
 LOOK_SECONDS = 0.25
 
@@ -50,7 +54,8 @@ def _fail(message):
     raise nearfit.Error(message)
 
 
-def _need(name):
+def need(name):
+    """Imports a package that sweeps need. Raises Error, with the remedy, where it is missing."""
     import importlib
 
     try:
@@ -90,7 +95,7 @@ class SweepResult:
 
     def table(self):
         """All rows as one pyarrow table, in order. It does not depend on how they were cut into pieces."""
-        pa = _need("pyarrow")
+        pa = need("pyarrow")
         return pa.concat_tables(table.replace_schema_metadata(None) for table in self.tables()).combine_chunks()
 
     def arrays(self):
@@ -103,7 +108,7 @@ def open_sweep(folder):
     """The result of a finished sweep in its folder. Raises Error where rows are missing or anything was changed."""
     import nearfit
 
-    _need("pyarrow")
+    need("pyarrow")
     with SweepFolder(folder, nearfit.Error) as opened:
         manifest = opened.manifest()
         spec, sweep = manifest["spec"], manifest["sweep"]
@@ -123,6 +128,7 @@ def _poses_array(poses, where):
         _fail(f"{where}: poses must be an array (k, 4, 4) or (k, 7) of at least one pose, not {poses.shape}")
     numbers = poses.reshape(len(poses), -1)
     good = np.isfinite(numbers).all(axis=1)
+    good &= (np.abs(numbers[:, (3, 7, 11) if poses.ndim == 3 else (0, 1, 2)]) <= MAX_POSITION).all(axis=1)
     if poses.ndim == 3:
         good &= (poses[:, 3] == (0, 0, 0, 1)).all(axis=1)
         good &= (np.abs(np.swapaxes(poses[:, :3, :3], 1, 2) @ poses[:, :3, :3] - np.eye(3)) < POSE_SLACK).all(axis=(1, 2))
@@ -130,7 +136,8 @@ def _poses_array(poses, where):
     else:
         good &= np.abs(np.linalg.norm(poses[:, 3:], axis=1) - 1) < POSE_SLACK
     if not good.all():
-        _fail(f"{where}: pose {int(np.argmin(good))} is no rigid transform: give finite numbers, and a rotation or a unit quaternion")
+        _fail(f"{where}: pose {int(np.argmin(good))} is no rigid transform: give finite numbers, positions within "
+              f"{MAX_POSITION:g} m, and a rotation or a unit quaternion")
     return poses
 
 
@@ -165,7 +172,7 @@ def _count(name, value, least=1):
 
 
 class _Inputs:
-    """What a sweep is made of: its specification, and the blobs that it names, by digest."""
+    """Inputs of a sweep: its specification, and the blobs that it names, by digest."""
 
     def __init__(self, scene, parts, poses, variants, tolerances, draws, seed, measures, cutoff, threshold):
         import nearfit
@@ -194,6 +201,7 @@ class _Inputs:
                        visible[name]] for name in there],
             "variants": self._variants(variants, there), "tolerances": tolerances, "draws": _count("draws", draws),
             "seed": _count("seed", seed, 0), "measures": measures, "cutoff": cutoff, "threshold": threshold}
+        self._meshes.clear()
         spec = _pieces.canonical(self.spec)
         self.sweep = _pieces.digest(spec)
         self.blobs[self.sweep] = ("spec", spec)
@@ -224,11 +232,12 @@ class _Inputs:
         return self._keep("poses", _pieces.poses_blob(array))
 
     def _add_mesh(self, mesh):
-        # Parts that share a mesh would be hashed again and again.
-        key = mesh.fingerprint
-        if key not in self._meshes:
-            self._meshes[key] = self._keep("mesh", _pieces.mesh_blob(mesh))
-        return self._meshes[key]
+        # Parts that share a mesh share its vertices: by their address it is hashed once. While the mesh is kept no other one gets
+        # that address.
+        address = mesh.vertices.__array_interface__["data"][0]
+        if address not in self._meshes:
+            self._meshes[address] = (mesh, self._keep("mesh", _pieces.mesh_blob(mesh)))
+        return self._meshes[address][1]
 
     def _variants(self, variants, there):
         if variants is None:
@@ -239,6 +248,10 @@ class _Inputs:
         for name, meshes in variants.items():
             if not isinstance(name, str) or not name:
                 _fail("variants: a name must be text, and not empty")
+            if name.encode(errors="replace").decode() != name:
+                _fail(f"variants: the name {ascii(name)} cannot be written in UTF-8; choose another one")
+            if len(name.encode()) > MAX_NAME_BYTES:
+                _fail(f"variants: a name has more than {MAX_NAME_BYTES} bytes; shorten it")
             self._check_parts(f"variant \"{name}\"", meshes, there)
             found.append({"name": name, "meshes": {part: self._add_mesh(mesh) for part, mesh in sorted(meshes.items())}})
         return found
@@ -317,7 +330,8 @@ class _Here:
             answer = _pieces.compute(self._inputs.sweep, piece.begin, piece.end, seconds, self._store)
             if "lacks" not in answer:
                 return piece, answer
-            self._store.put({name: self._inputs.blobs[name] for name in answer["lacks"]}, self._limit)
+            # All that the piece needs: were it given what it lacks alone, that could drive out the rest, again and again.
+            self._store.put(self._inputs.needed(piece.begin), self._limit)
 
     def drop(self, piece):
         pass
@@ -554,7 +568,7 @@ class _Run:
 @contextlib.contextmanager
 def _local_client(workers):
     """A cluster on this machine alone, one process of one thread for each core by default; ends with the context."""
-    distributed = _need("distributed")
+    distributed = need("distributed")
     cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None,
                                        host="127.0.0.1", silence_logs=logging.CRITICAL)
     try:
@@ -590,7 +604,7 @@ def sweep(scene, parts, poses, client=None, *, cutoff, threshold, folder, varian
     @param seed        Seed of the draws; each depends on it, its number and the part's name alone.
     @param measures    Any of "distance", "minima" and "overlap"; what is left out takes no time.
     @param workers     Without a client: number of processes; None: one for each processor; 0: in this process, without Dask.
-    @param piece_poses    Max number of rows in a piece; None: as many as take `piece_seconds`.
+    @param piece_poses    Max number of rows in a piece, at most 2^20; None: as many as take `piece_seconds`.
     @param piece_seconds  Time after which a piece ends [s]; the rest of its rows becomes another one.
     @param store_bytes    Bytes of meshes and poses that a worker keeps, as delivered.
     @param progress    True: a line on stderr; or a function of (rows done, rows in all).
@@ -600,11 +614,11 @@ def sweep(scene, parts, poses, client=None, *, cutoff, threshold, folder, varian
     """
     import nearfit
 
-    _need("pyarrow")
+    need("pyarrow")
     inputs = _Inputs(scene, parts, poses, variants, tolerances, draws, seed, measures, cutoff, threshold)
     piece_seconds = _positive("piece_seconds", piece_seconds)
     if piece_poses is not None:
-        piece_poses = _count("piece_poses", piece_poses)
+        piece_poses = min(_count("piece_poses", piece_poses), MAX_PIECE_ROWS)
     inputs.check_store(_count("store_bytes", store_bytes))
     if client is None:
         workers = _processors() if workers is None else _count("workers", workers, 0)

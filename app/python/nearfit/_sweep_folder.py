@@ -20,6 +20,9 @@ MAX_MANIFEST = 1 << 30
 # stored once a page.
 MAX_ROW_BYTES = 64
 MAX_PIECE_HEAD = 16 << 20
+# Columns of text, and the rows of which they are checked at once.
+NAMES = ("variant", "part")
+NAME_BATCH = 1 << 16
 # Differences between two manifests that a message lists.
 MAX_TOLD = 5
 
@@ -36,13 +39,16 @@ def range_of(name):
     return (int(found[1]), int(found[2])) if found else None
 
 
-def read_file(path, max_bytes):
-    """Bytes of an ordinary file, not through a link. Raises OSError, and ValueError where it is none or too long."""
-    handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+def read_file(path, max_bytes, follows=False):
+    """Bytes of an ordinary file, through a symbolic link only if `follows`. Raises OSError, and ValueError where it is none or too
+    long."""
+    handle = os.open(path, os.O_RDONLY | (0 if follows else os.O_NOFOLLOW) | os.O_NONBLOCK | os.O_CLOEXEC)
+    status = os.fstat(handle)
+    if not stat.S_ISREG(status.st_mode):
+        # open() would refuse a folder, and leave it open.
+        os.close(handle)
+        raise ValueError("it is not a file")
     with open(handle, "rb") as file:
-        status = os.fstat(handle)
-        if not stat.S_ISREG(status.st_mode):
-            raise ValueError("it is not a file")
         if status.st_size > max_bytes:
             raise ValueError(f"it has {status.st_size:,} bytes, more than such a file can have")
         return file.read(max_bytes)
@@ -143,7 +149,9 @@ class SweepFolder:
                                                         allow_nan=False).encode() + b"\n")
         for name in os.listdir(self.path / PIECES):
             if name.startswith(".writing-"):
-                os.unlink(self.path / PIECES / name)
+                # A folder of that name is none of ours, and harms nobody.
+                with contextlib.suppress(IsADirectoryError):
+                    os.unlink(self.path / PIECES / name)
 
     def _compare(self, sweep, spec):
         there = self.manifest()["spec"]
@@ -191,11 +199,18 @@ class SweepFolder:
                 if not drops:
                     raise self._error(f"{self.path / PIECES / name}: {e}; run the sweep again") from None
                 self.notes.append(f"{name} is computed anew: {e}")
-                os.unlink(self.path / PIECES / name)
+                self._remove(self.path / PIECES / name)
                 continue
             taken.append(rows)
             free = rows[1]
         return taken
+
+    def _remove(self, path):
+        try:
+            os.unlink(path)
+        except OSError as e:
+            raise self._error(f"{path}: it is no piece of this sweep, and cannot be removed: {e.strerror}; remove it, or choose "
+                              "another folder") from None
 
     def read_piece(self, sweep, spec, begin, end):
         """The table of a piece. Raises ValueError, saying why, where it is not whole or not of this sweep."""
@@ -203,19 +218,25 @@ class SweepFolder:
         import pyarrow.parquet as pq
 
         path, count = self.path / PIECES / piece_name(begin, end), end - begin
+        if count > _pieces.MAX_PIECE_ROWS:
+            raise ValueError(f"it has {count:,} rows, more than a piece can have")
         try:
             data = read_file(path, MAX_PIECE_HEAD + MAX_ROW_BYTES * count)
-            file = pq.ParquetFile(pa.BufferReader(data), page_checksum_verification=True)
+            # A few bytes can stand for a long name in each row: names stay in dictionaries until they are known to be the sweep's.
+            file = pq.ParquetFile(pa.BufferReader(data), page_checksum_verification=True, read_dictionary=list(NAMES))
             # Before anything is unpacked: a few bytes can stand for billions of rows.
-            if file.metadata.num_rows != count or not file.schema_arrow.equals(_pieces.schema_of(spec)):
+            if file.metadata.num_rows != count or not file.schema_arrow.equals(_packed(_pieces.schema_of(spec))):
                 raise ValueError("its rows or columns are not those of this sweep")
             said = file.schema_arrow.metadata or {}
             if any(said.get(key) != value for key, value in _pieces.head_of(sweep, begin, end).items()):
                 raise ValueError("it is of another sweep")
+            _check_names(file, spec)
             table = file.read()
             table.validate(full=True)
+            table = table.cast(_pieces.schema_of(spec).with_metadata(table.schema.metadata))
         except (OSError, pa.ArrowException) as e:
-            raise ValueError(f"it cannot be read: {str(e).splitlines()[0]}") from None
+            # A message may be empty.
+            raise ValueError(f"it cannot be read: {next(iter(str(e).splitlines()), type(e).__name__)}") from None
         if any(column.null_count for column in table.columns):
             raise ValueError("it has empty cells")
         for i, expected in enumerate(_pieces.key_columns(spec, begin, end)):
@@ -224,13 +245,37 @@ class SweepFolder:
         return table
 
 
+def _packed(schema):
+    """A piece's schema with its names in dictionaries."""
+    import pyarrow as pa
+
+    for name in NAMES:
+        i = schema.get_field_index(name)
+        schema = schema.set(i, schema.field(i).with_type(pa.dictionary(pa.int32(), pa.string())))
+    return schema
+
+
+def _check_names(file, spec):
+    """Reads the names of a piece, which is open with them in dictionaries, and raises ValueError where one is not the sweep's."""
+    expected = {"variant": {v["name"] for v in spec["variants"]}, "part": set(spec["parts"])}
+    for batch in file.iter_batches(batch_size=NAME_BATCH, columns=list(NAMES)):
+        for name in NAMES:
+            there = batch.column(name).dictionary
+            # A dictionary of longer names is not copied into Python's strings.
+            if there.nbytes > len(there) * (_pieces.MAX_NAME_BYTES + 8) or not expected[name].issuperset(there.to_pylist()):
+                raise ValueError(f"its column {name} is not that of these rows")
+
+
 def _is_spec(spec):
     """True for the form of a specification: what Rows, schema_of() and key_columns() rely on."""
     def is_count(value):
         return type(value) is int and value > 0
 
+    def is_name(value):
+        return isinstance(value, str) and len(value.encode()) <= _pieces.MAX_NAME_BYTES
+
     return (isinstance(spec, dict) and is_count(spec["draws"]) and is_count(spec["count"]) and
-            isinstance(spec["parts"], list) and len(spec["parts"]) > 0 and all(isinstance(p, str) for p in spec["parts"]) and
+            isinstance(spec["parts"], list) and len(spec["parts"]) > 0 and all(is_name(p) for p in spec["parts"]) and
             isinstance(spec["variants"], list) and len(spec["variants"]) > 0 and
-            all(isinstance(v, dict) and isinstance(v["name"], str) for v in spec["variants"]) and
+            all(isinstance(v, dict) and is_name(v["name"]) for v in spec["variants"]) and
             isinstance(spec["measures"], list) and all(m in _pieces.MEASURES for m in spec["measures"]))

@@ -11,7 +11,7 @@ from ._nearfit import Error, Lmds, Scene
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-# As kPartPalette of core/scene/part.h: distinguishable with the common forms of colour blindness.
+# Equals kPartPalette (core/scene/part.h): distinguishable with the common forms of colour blindness.
 _PALETTE = (
     (0.62, 0.69, 0.76),
     (0.90, 0.67, 0.36),

@@ -11,7 +11,7 @@ import types
 
 import numpy as np
 
-from ._sweep import MAX_PIECE_ROWS, PIECE_SECONDS, SweepResult, open_sweep, sweep
+from ._sweep import MAX_PIECE_ROWS, PIECE_SECONDS, SweepResult, need, open_sweep, sweep
 from ._sweep_folder import read_file
 
 __all__ = ["SweepResult", "open_sweep", "sweep"]
@@ -19,7 +19,7 @@ __all__ = ["SweepResult", "open_sweep", "sweep"]
 USAGE, FAILURE, STOPPED = 2, 1, 130
 # 100,000,000 poses as 16 numbers each.
 MAX_POSES_BYTES = 16 << 30
-# As kQuaternionSlack of core/math/tolerances.h: what rounding to three digits makes.
+# Equals kQuaternionSlack (core/scene/part.h): rounding to three digits.
 QUATERNION_SLACK = 1e-3
 
 
@@ -68,10 +68,10 @@ def _rows_of_csv(text):
 
 def read_poses(path):
     """Poses of a file, (k, 4, 4) or (k, 7): CSV with tx, ty, tz, qw, qx, qy, qz in each line, or such an array of numpy (.npy).
-    Raises ValueError and OSError."""
+    Raises ValueError, OSError, and for a damaged .npy what numpy does."""
     import io
 
-    data = read_file(path, MAX_POSES_BYTES)
+    data = read_file(path, MAX_POSES_BYTES, follows=True)
     if pathlib.Path(path).suffix != ".npy":
         return _rows_of_csv(data.decode("utf-8"))
     # A header may claim any size, and objects could run code.
@@ -123,6 +123,18 @@ def _parser():
     return parser
 
 
+def _client_of(address):
+    import nearfit
+
+    distributed = need("distributed")
+    try:
+        return distributed.Client(address)
+    # Dask raises what it meets: ValueError for an unknown protocol, OSError where nobody answers.
+    except Exception as e:
+        raise nearfit.Error(f"--scheduler {address}: it cannot be used: {str(e) or type(e).__name__}; give the address of a Dask "
+                            "scheduler that runs, such as tcp://HOST:8786") from None
+
+
 def _run(arguments):
     import nearfit
 
@@ -135,13 +147,14 @@ def _run(arguments):
     try:
         poses = read_poses(options.poses)
     except (OSError, ValueError, EOFError, MemoryError) as e:
-        raise nearfit.Error(f"{options.poses}: {e}") from None
+        raise nearfit.Error(f"{options.poses}: {str(e) or type(e).__name__}") from None
+    # numpy reads a head by Python's tokenizer and parser, and lets through all that these raise for a damaged one.
+    except Exception as e:
+        raise nearfit.Error(f"{options.poses}: it cannot be read: {str(e) or type(e).__name__}; write it by numpy.save()") from None
     scene = nearfit.Scene.open(options.scene)
     client = None
     if options.scheduler:
-        import distributed
-
-        client = distributed.Client(options.scheduler)
+        client = _client_of(options.scheduler)
     try:
         result = sweep(scene, parts, poses, client, cutoff=options.cutoff, threshold=options.threshold, folder=options.out,
                        tolerances=dict(options.tolerance), draws=options.draws, seed=options.seed,

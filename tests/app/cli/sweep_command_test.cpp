@@ -64,7 +64,7 @@ TEST_F(SweepCommand, AMissingPackageIsToldWithTheRemedy) {
   const auto result = runCli(arguments({"--parts", "Cube", "--python", script("bare", "exit 77\n")}));
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_EQ(result.out, "");
-  EXPECT_THAT(result.err, HasSubstr("pip install nearfit[sweep]"));
+  EXPECT_THAT(result.err, HasSubstr("pip install '.[sweep]' in the folder of nearfit's sources"));
   EXPECT_EQ(linesOf(result.err).size(), 1U);
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
@@ -74,7 +74,7 @@ TEST_F(SweepCommand, TheRealInterpreterWithoutItsPackagesIsToldToo) {
   const std::string bare = script("isolated", "exec python3 -I -S \"$@\"\n");
   const auto result = runCli(arguments({"--parts", "Cube", "--python", bare}));
   EXPECT_EQ(result.exitCode, 1);
-  EXPECT_THAT(result.err, HasSubstr("pip install nearfit[sweep]"));
+  EXPECT_THAT(result.err, HasSubstr("pip install '.[sweep]' in the folder of nearfit's sources"));
 }
 
 TEST_F(SweepCommand, AProgramThatIsNoInterpreterIsToldSo) {

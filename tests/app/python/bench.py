@@ -109,7 +109,7 @@ def measured(options, folder):
         found.append((f"{mode}_python_us", python, "us", ""))
         found.append((f"{mode}_python_all_processors_us", 1e6 * best(lambda: lmds(0)) / POSES, "us", ""))
         if not tracked:
-            # What nearfit-bench tracks, it searches ahead on another clock; cold queries alone compare.
+            # nearfit-bench searches ahead on another clock while it tracks; only cold queries compare.
             cpp = cpp_mean_us(options.bench, folder, "nearfit-cold-blocked")
             found.append((f"{mode}_cpp_us", cpp, "us", ""))
             found.append((f"{mode}_python_over_cpp", python / cpp, "1", MAX_SLOWDOWN))

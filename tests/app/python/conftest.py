@@ -1,4 +1,4 @@
-"""What the tests of the Python package share. NEARFIT_CLI names the nearfit-cli of the same sources."""
+"""Fixtures of the tests of the Python package. NEARFIT_CLI names the nearfit-cli of the same sources."""
 
 import json
 import os

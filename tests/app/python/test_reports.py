@@ -115,7 +115,7 @@ def test_a_path_that_meets_something_gets_no_certificate(tmp_path):
 def test_exports_are_those_of_the_command_line(saved, cli, tmp_path):
     scene, file, _, _ = saved
     for suffix in ("csv", "stl", "obj", "ply", "glb"):
-        # Of the same name, which some formats hold.
+        # The same name for both: some formats hold it.
         ours, theirs = tmp_path / "ours" / f"fit.{suffix}", tmp_path / "theirs" / f"fit.{suffix}"
         for made in (ours, theirs):
             made.parent.mkdir(exist_ok=True)

@@ -5,6 +5,7 @@ import json
 import logging
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -95,7 +96,7 @@ def test_distances_minima_and_overlaps_are_those_of_cubes(tmp_path):
     expected = np.where(gaps > CUTOFF, np.inf, gaps)
     assert rows["distance"] == pytest.approx(expected, abs=1e-12)
     assert rows["overlap"].tolist() == (gaps == 0).tolist()
-    # Of bodies that overlap minima tell nothing.
+    # Minima tell nothing about bodies that overlap.
     apart = gaps > 0
     assert (rows["minima"] > 0)[apart].tolist() == (gaps < THRESHOLD)[apart].tolist()
     assert rows["pose"].tolist() == list(range(6)) and set(rows["part"]) == {"Moving"}
@@ -133,7 +134,7 @@ def test_tolerances_move_parts_by_seed_within_their_size(tmp_path):
         return run(scene, ["Moving"], moved([[2, 0, 0]]), tmp_path / folder, **options).arrays()["distance"]
 
     first = distances("a", 7)
-    # Of two cubes side by side only the shift along x counts.
+    # Between two cubes side by side only the shift along x counts.
     assert np.all(np.abs(first - 1) <= 0.03) and np.ptp(first) > 0.02 and len(set(first)) == 40
     assert np.array_equal(first, distances("b", 7)) and not np.array_equal(first, distances("c", 8))
 
@@ -241,6 +242,41 @@ def test_inputs_that_drive_each_other_out_still_get_their_turn(tmp_path, client)
     assert same(many, run(scene, "P0", poses, tmp_path / "alone", **options))
 
 
+def test_variants_that_together_exceed_the_store_are_swept_here_too(tmp_path, monkeypatch):
+    # Giving a piece what it lacked alone drove out its other inputs, endlessly.
+    scene = nearfit.Scene()
+    scene.add(box(0.5), name="Fixed")
+    scene.add(box(0.5), name="Moving", pose=moved([[9, 9, 9]])[0])
+    halves = [(0.25 + 0.125 * i, 0.3125 + 0.125 * i) for i in range(3)]
+    variants = {str(i): {"Fixed": box(fixed), "Moving": box(moving)} for i, (fixed, moving) in enumerate(halves)}
+    poses = moved([[1.5, 0, 0]])
+    inputs = _sweep._Inputs(scene, ["Moving"], poses, variants, None, 1, 0, ["distance"], CUTOFF, THRESHOLD)
+    needed = inputs.needed(0).values()
+    room = sum(len(blob) for _, blob in needed) + int(1.4 * max(len(blob) for kind, blob in needed if kind == "mesh"))
+    calls = []
+
+    def counted(*arguments, real=_pieces.compute):
+        calls.append(arguments)
+        assert len(calls) < 20, "pieces lack inputs again and again"
+        return real(*arguments)
+
+    monkeypatch.setattr(_pieces, "compute", counted)
+    rows = run(scene, "Moving", poses, tmp_path / "out", variants=variants, measures="distance", store_bytes=room).arrays()
+    assert rows["distance"] == pytest.approx([1.5 - fixed - moving for fixed, moving in halves], abs=1e-12)
+
+
+def test_parts_of_one_mesh_are_packed_once(monkeypatch):
+    blobs = []
+
+    def counted(mesh, real=_pieces.mesh_blob):
+        blobs.append(mesh)
+        return real(mesh)
+
+    monkeypatch.setattr(_pieces, "mesh_blob", counted)
+    inputs = _sweep._Inputs(grid_scene(15), ["P0"], random_poses(3), None, None, 1, 0, ["overlap"], CUTOFF, THRESHOLD)
+    assert len(blobs) == 5 and len({mesh for _, mesh, *_ in inputs.spec["scene"]}) == 5
+
+
 class Stop(Exception):
     pass
 
@@ -346,6 +382,59 @@ def test_what_is_not_whole_or_of_another_sweep_is_computed_anew(tmp_path, comput
     assert len(other) == 120 and aside.exists()
 
 
+NAME_FILES = {"a dictionary": {"use_dictionary": ["variant", "part"]}, "plain": {"use_dictionary": False},
+              "prefixes": {"use_dictionary": False, "column_encoding": {"part": "DELTA_BYTE_ARRAY"}}}
+
+
+@pytest.mark.parametrize("kind", NAME_FILES)
+def test_a_long_name_in_each_row_is_refused_before_it_is_unpacked(tmp_path, kind):
+    import pyarrow as pa
+
+    scene, count = grid_scene(2), 2000
+    good = run(scene, "P0", random_poses(count), tmp_path / "out", measures="overlap", piece_poses=count)
+    (piece,) = good.pieces
+    path = tmp_path / "out" / "pieces" / _sweep_folder.piece_name(*piece)
+    table = pq.read_table(path)
+    long = pa.array(["n" * 20000] * count)
+    pq.write_table(table.set_column(table.schema.names.index("part"), table.schema.field("part"), long), path, compression="zstd",
+                   **NAME_FILES[kind])
+    assert path.stat().st_size < 1 << 20
+    # A pool of its own, since a pool's peak never falls.
+    usual, pool = pa.default_memory_pool(), pa.proxy_memory_pool(pa.default_memory_pool())
+    pa.set_memory_pool(pool)
+    try:
+        with _sweep_folder.SweepFolder(tmp_path / "out", nearfit.Error) as folder:
+            with pytest.raises(ValueError, match="column part|cannot be read"):
+                folder.read_piece(good.sweep, good.spec, *piece)
+    finally:
+        pa.set_memory_pool(usual)
+    # Pages of the file unpacked, but not a name for each row.
+    assert 0 < pool.max_memory() < 20000 * count
+
+
+def test_no_piece_has_more_rows_than_memory_holds(tmp_path, monkeypatch):
+    monkeypatch.setattr(_sweep, "MAX_PIECE_ROWS", 30)
+    monkeypatch.setattr(_pieces, "MAX_PIECE_ROWS", 30)
+    good = run(grid_scene(2), "P0", random_poses(100), tmp_path / "out", piece_poses=1000)
+    assert len(good) == 100 and max(end - begin for begin, end in good.pieces) == 30
+    monkeypatch.setattr(_pieces, "MAX_PIECE_ROWS", 29)
+    with pytest.raises(nearfit.Error, match="30 rows, more than a piece can have"):
+        nearfit.open_sweep(tmp_path / "out")
+
+
+def test_a_folder_in_the_place_of_a_piece_is_told(tmp_path):
+    scene, poses = grid_scene(2), random_poses(5)
+    (piece,) = run(scene, "P0", poses, tmp_path / "out").pieces
+    path = tmp_path / "out" / "pieces" / _sweep_folder.piece_name(*piece)
+    path.unlink()
+    path.mkdir()
+    (path.parent / ".writing-1-x").mkdir()
+    with pytest.raises(nearfit.Error, match="cannot be removed: Is a directory; remove it"):
+        run(scene, "P0", poses, tmp_path / "out")
+    path.rmdir()
+    assert len(run(scene, "P0", poses, tmp_path / "out")) == 5
+
+
 def test_a_manifest_that_was_changed_is_refused(tmp_path):
     scene, poses = grid_scene(2), random_poses(5)
     run(scene, "P0", poses, tmp_path / "out")
@@ -365,7 +454,8 @@ def test_a_manifest_that_was_changed_is_refused(tmp_path):
     refused('{"nearfit_sweep": 1}')
     refused(json.dumps({**whole, "nearfit_sweep": 2}))
     refused(json.dumps({**whole, "spec": {**whole["spec"], "count": 10**12}}))
-    for spec in (None, [], {}, {**whole["spec"], "parts": []}, {**whole["spec"], "draws": "1"}):
+    for spec in (None, [], {}, {**whole["spec"], "parts": []}, {**whole["spec"], "parts": ["P" * 2000]},
+                 {**whole["spec"], "draws": "1"}):
         refused(json.dumps({**whole, "spec": spec, "sweep": _pieces.digest(_pieces.canonical(spec))}))
     path.unlink()
     with pytest.raises(nearfit.Error, match="no manifest.json"):
@@ -407,6 +497,9 @@ def test_two_sweeps_do_not_write_to_one_folder(tmp_path):
     ({"tolerances": {"P0": 1}, "draws": 0}, "draws"), ({"poses": np.zeros((3, 6))}, r"\(k, 4, 4\)"),
     ({"poses": np.zeros((0, 4, 4))}, "at least one pose"), ({"poses": np.zeros((1, 4, 4))}, "pose 0 is no rigid transform"),
     ({"poses": [[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 2, 0, 0, 0]]}, "pose 1 is no rigid transform"),
+    ({"poses": [[0, 0, 0, 1.0015, 0, 0, 0]]}, "pose 0 is no rigid transform"),
+    ({"poses": moved([[0, 0, 0], [0, 0, 2e9]])}, "pose 1 is no rigid transform"), ({"variants": {"v" * 2000: {}}}, "1024 bytes"),
+    ({"variants": {"\udcff": {}}}, "UTF-8"),
     ({"poses": {"P1": np.eye(4)[None]}}, "each of the parts"), ({"variants": {}}, "variants"),
     ({"variants": {"v": {"None": None}}}, "no part"), ({"piece_poses": 0}, "piece_poses"), ({"piece_seconds": 0}, "piece_seconds"),
     ({"workers": -1}, "workers")])
@@ -436,7 +529,9 @@ def test_the_module_sweeps_a_scene_file(tmp_path):
     scene = write_scene(tmp_path)
     (tmp_path / "poses.csv").write_text("# cubes\ntx,ty,tz,qw,qx,qy,qz\n1.25,0,0,1,0,0,0\n\n0,1.5,0,0,0,0,1\n0.5,0,0,1,0,0,0\n")
     np.save(tmp_path / "poses.npy", moved([[1.25, 0, 0], [0, 1.5, 0], [0.5, 0, 0]]))
-    for file in ("poses.csv", "poses.npy"):
+    (tmp_path / "link.csv").symlink_to("poses.csv")
+    for file in ("poses.csv", "poses.npy", "link.csv"):
+        shutil.rmtree(tmp_path / file[-3:], ignore_errors=True)
         done = main(scene, "--parts", "Moving", "--poses", tmp_path / file, "--threshold", 0.3, "--cutoff", 1, "-o",
                     tmp_path / file[-3:], "--workers", 0, "--quiet")
         assert (done.returncode, done.stderr) == (0, "") and done.stdout.startswith("3 rows in 1 pieces: ")
@@ -456,6 +551,8 @@ def test_the_module_tells_what_is_wrong_in_a_line(tmp_path):
     (tmp_path / "empty.csv").write_text("# nothing\n")
     np.save(tmp_path / "objects.npy", np.array([{}, []], dtype=object))
     np.save(tmp_path / "flat.npy", np.zeros(16))
+    for name, head in {"token.npy": b"{'descr': (\n", "indent.npy": b"{'descr': '<f8'}\n  x\n y\n"}.items():
+        (tmp_path / name).write_bytes(b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head)
     os.mkfifo(tmp_path / "pipe.csv")
 
     def expect(code, match, *arguments, poses=good):
@@ -470,8 +567,19 @@ def test_the_module_tells_what_is_wrong_in_a_line(tmp_path):
     expect(1, "no part \"None\"", "--part", "None")
     for file, match in {"six.csv": "line 1: it has 6 numbers", "words.csv": "line 3", "long.csv": "quaternion",
                         "nan.csv": "not finite", "empty.csv": "no pose", "objects.npy": "allow_pickle", "flat.npy": "(16,)",
-                        "pipe.csv": "not a file", "none.csv": "No such file"}.items():
+                        "token.npy": "cannot be read",
+                        "indent.npy": "cannot be read", "pipe.csv": "not a file", "none.csv": "No such file"}.items():
         expect(1, match, "--part", "Moving", poses=tmp_path / file)
+
+
+def test_a_scheduler_that_cannot_be_used_is_told_in_a_line(tmp_path):
+    scene = write_scene(tmp_path)
+    np.save(tmp_path / "poses.npy", moved([[2, 0, 0]]))
+    done = main(scene, "--poses", tmp_path / "poses.npy", "--threshold", 0.1, "--cutoff", 1, "-o", tmp_path / "out", "--part", "Moving",
+                "--scheduler", "foo://x")
+    assert done.returncode == 1 and done.stdout == ""
+    assert done.stderr.startswith("nearfit-cli: --scheduler foo://x: ") and done.stderr.count("\n") == 1
+    assert "tcp://HOST:8786" in done.stderr
 
 
 def test_calling_the_module_is_calling_the_function():
