@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <thread>
+#include <type_traits>
 
 #include <nanobind/nanobind.h>
 
@@ -41,17 +42,26 @@ template <class Work>
 auto withoutLock(const Work& work) {
   Interrupts interrupts;
   const ProgressCallback progress = interrupts.callback();
-  try {
-    auto result = [&] {
-      const nanobind::gil_scoped_release unlocked;
-      return work(progress);
-    }();
-    // The work may have ended before it took notice.
+  const auto raiseInterrupt = [] {
     if (PyErr_Occurred() != nullptr) throw nanobind::python_error();
-    return result;
+  };
+  const auto unlocked = [&] {
+    const nanobind::gil_scoped_release release;
+    return work(progress);
+  };
+  try {
+    // The work may have ended before it took notice.
+    if constexpr (std::is_void_v<decltype(work(progress))>) {
+      unlocked();
+      raiseInterrupt();
+    } else {
+      auto result = unlocked();
+      raiseInterrupt();
+      return result;
+    }
   } catch (const Error&) {
     // An interrupt stops the work with Cancelled, or with what another thread threw meanwhile.
-    if (PyErr_Occurred() != nullptr) throw nanobind::python_error();
+    raiseInterrupt();
     throw;
   }
 }
