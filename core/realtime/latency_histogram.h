@@ -13,7 +13,7 @@ class LatencyHistogram {
   void record(double seconds, std::uint64_t times = 1) noexcept;
   void clear() noexcept { *this = LatencyHistogram(); }
 
-  /// What was recorded since `earlier`, a copy of this histogram from before; not real-time safe. The longest
+  /// Durations recorded since `earlier`, a copy of this histogram from before; not real-time safe. The longest
   /// duration is exact if it is the longest of all, else the upper bound of its bin.
   LatencyHistogram since(const LatencyHistogram& earlier) const;
 

@@ -49,7 +49,7 @@ class ErrorMethod {
   /// This call is what is timed: minima and wrench. `answer` is empty, and has room from the calls before.
   virtual void answer(const RigidTransform& sceneFromPart, ContactAnswer& answer) = 0;
 
-  /// What another thread does between two ticks; timed apart. Comes after each answer.
+  /// Work of another thread between two ticks; timed apart. Comes after each answer.
   virtual void workAside(const RigidTransform&) {}
 
   /// Memory of what it holds instead of the meshes' hierarchies [bytes]; 0 where it holds those.

@@ -9,7 +9,7 @@
 
 namespace nearfit::bench {
 
-/// What happened in one stretch of time of an open window: a line of `nearfit-bench-window hour --csv`.
+/// Figures of an open window over one stretch of time: a line of `nearfit-bench-window hour --csv`.
 struct HourRow {
   double minute = 0.0;         ///< Since the servo started, at the end of the stretch.
   std::uint64_t resident = 0;  ///< Memory of the process [bytes]; nothing is given back to the system first.

@@ -13,7 +13,7 @@ QString scriptName() {
   return QStringLiteral("session.jsonl");
 }
 
-/// What scene files beside each other hold.
+/// The session's scene as a scene file in that folder would have it.
 std::string sceneText(DesktopDriver& d, const TemporaryFolder& folder) {
   return sceneFileText(d.session().scene(), folder.path() / "out.nearfit");
 }

@@ -4,7 +4,7 @@ a wheel takes to build.
 
     tests/app/python/bench.py --bench build/release/bin/nearfit-bench --csv tests/app/python/results/python.csv [--wheel]
 
-Runs in an environment with the package installed (build/release/python/venv of the tests). nearfit-bench gets the same meshes,
+Runs where the package can be imported: with build/release/python/venv of the tests, PYTHONPATH=build/release/python/package. nearfit-bench gets the same meshes,
 poses and cutoff, by turns with Python; of each the best of several rounds counts. --wheel also builds the wheel from nothing,
 without ccache. Exits 1 if a goal of issue 25 is missed, after all results are written.
 """
