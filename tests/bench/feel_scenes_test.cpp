@@ -6,13 +6,14 @@
 #include "core/servo/overlap_check.h"
 #include "core/servo/tracked_scene.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/places.h"
 
 namespace nearfit::bench::feel_scenes_test {
 namespace {
 
 std::vector<FeelEntry> allScenes() {
   std::vector<FeelEntry> entries = generatedFeelScenes();
-  for (FeelEntry& entry : sharedFeelScenes(NEARFIT_SHARED_DIR))
+  for (FeelEntry& entry : sharedFeelScenes(test::sharedFolder()))
     entries.push_back(std::move(entry));
   return entries;
 }

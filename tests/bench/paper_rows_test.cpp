@@ -10,14 +10,14 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "tests/support/places.h"
 
 namespace nearfit::bench::paper_rows_test {
 namespace {
 
 /// The rows whose meshes are on this machine: all or none.
 std::vector<PaperRow> rowsWithMeshes() {
-  if (!std::filesystem::exists(std::filesystem::path(NEARFIT_SHARED_DIR) / "models/public/paper_counts"))
-    return {};
+  if (!std::filesystem::exists(test::sharedFolder() / "models/public/paper_counts")) return {};
   return {paperRows().begin(), paperRows().end()};
 }
 
@@ -39,7 +39,7 @@ TEST(PaperRows, AreThoseThatThePaperPrints) {
 
 TEST(PaperRows, HaveMeshesOfThePrintedCounts) {
   for (const PaperRow& row : rowsWithMeshes()) {
-    const BenchScene meshes = paperScene(row, NEARFIT_SHARED_DIR);
+    const BenchScene meshes = paperScene(row, test::sharedFolder());
     EXPECT_EQ(meshes.scene.triangles().size(), row.sceneTriangles) << row.letter;
     EXPECT_EQ(meshes.part.triangles().size(), row.partTriangles) << row.letter;
     EXPECT_NEAR(meshes.size(), 1.0, 1e-9) << row.letter;
@@ -48,7 +48,7 @@ TEST(PaperRows, HaveMeshesOfThePrintedCounts) {
 
 TEST(PaperRows, HavePosesWithThePrintedCountByThePapersRuleAndAGap) {
   for (const PaperRow& row : rowsWithMeshes()) {
-    const BenchScene meshes = paperScene(row, NEARFIT_SHARED_DIR);
+    const BenchScene meshes = paperScene(row, test::sharedFolder());
     const PaperHierarchy scene(meshes.scene, PaperRule::NormalSpans),
         part(meshes.part, PaperRule::NormalSpans);
     PaperQuery query(scene, part);
@@ -71,7 +71,7 @@ TEST(PaperRows, HaveThePoseThatTheSearchFinds) {
   for (const PaperRow& row : rowsWithMeshes()) {
     // The others take minutes: nearfit-bench paper --search prints all.
     if (row.letter != 'a' && row.letter != 'b' && row.letter != 'd') continue;
-    const std::optional<RigidTransform> found = searchPose(row, paperScene(row, NEARFIT_SHARED_DIR));
+    const std::optional<RigidTransform> found = searchPose(row, paperScene(row, test::sharedFolder()));
     ASSERT_TRUE(found.has_value()) << row.letter;
     EXPECT_LT(glm::distance(found->translation, row.pose.translation), 1e-12) << row.letter;
     EXPECT_LT(glm::length(found->rotation - row.pose.rotation), 1e-12) << row.letter;

@@ -7,6 +7,7 @@
 #include "core/path/path_bodies.h"
 #include "core/path/path_certifier.h"
 #include "tests/exact/pose_certifier.h"
+#include "tests/support/places.h"
 
 namespace nearfit::bench::path_scenes_test {
 namespace {
@@ -49,7 +50,7 @@ TEST(PathScenes, GeneratedPathsAreFreeAndComeNear) {
 }
 
 TEST(PathScenes, PathsOfSharedModelsAreFree) {
-  for (const PathSceneEntry& entry : sharedPathScenes(NEARFIT_SHARED_DIR, kPoses))
+  for (const PathSceneEntry& entry : sharedPathScenes(test::sharedFolder(), kPoses))
     expectFree(entry.make());
   EXPECT_TRUE(sharedPathScenes({}, kPoses).empty());
 }

@@ -8,6 +8,7 @@
 
 #include "device/thread/monotonic_clock.h"
 #include "tests/support/eventually.h"
+#include "tests/support/places.h"
 
 namespace nearfit::test {
 namespace {
@@ -17,12 +18,12 @@ constexpr Nanoseconds kServoPatience = 2'000'000;
 
 /// Loads a library that stands in for a maker's. The loader knows it by the maker's name from then on, which is what the
 /// plug-in asks for. It stays, as such libraries do.
-Standin& loaded(const char* file) {
-  void* const library = ::dlopen(file, RTLD_NOW | RTLD_LOCAL);
+Standin& loaded(const std::string& file) {
+  void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) throw std::runtime_error(::dlerror());
   using Entry = Standin*();
   auto* const entry = reinterpret_cast<Entry*>(::dlsym(library, "nearfit_standin"));
-  if (entry == nullptr) throw std::runtime_error(std::string(file) + " stands in for nothing");
+  if (entry == nullptr) throw std::runtime_error(file + " stands in for nothing");
   return *entry();
 }
 
@@ -36,7 +37,7 @@ SafetyLimits patientSafety() {
 }
 
 MakerBench::MakerBench(const MakerModel& model) {
-  std::string plugin = NEARFIT_PLUGIN_FOLDER;
+  std::string plugin = builtPath("plugins");
   switch (model.maker) {
     case Maker::OpenHaptics:
       plugin += "/openhaptics.so";
@@ -44,11 +45,11 @@ MakerBench::MakerBench(const MakerModel& model) {
       for (const char* each : {"Default Device", "Left Device"})
         std::ofstream(folder_.path() / "config" / (std::string(each) + ".config")) << "[DEVICE]\n";
       setup_.emplace("GTDD_HOME", folder_.path().string());
-      standin_ = &loaded(NEARFIT_STANDIN_FOLDER "/libHD.so");
+      standin_ = &loaded(builtPath("standins/whole/libHD.so"));
       break;
     case Maker::ForceDimension:
       plugin += "/forcedimension.so";
-      standin_ = &loaded(NEARFIT_STANDIN_FOLDER "/libdrd.so");
+      standin_ = &loaded(builtPath("standins/whole/libdrd.so"));
       break;
     case Maker::Haply:
       plugin += "/haply.so";

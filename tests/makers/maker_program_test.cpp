@@ -22,6 +22,7 @@
 #include "tests/support/eventually.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"
+#include "tests/support/places.h"
 #include "tests/support/run_process.h"
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
@@ -94,7 +95,7 @@ TEST_F(MakerProgram, SaysInALineWhatToInstallForEachMaker) {
 }
 
 TEST_F(MakerProgram, ListsTheDevicesOfDriversThatAreThere) {
-  install(NEARFIT_STANDINS "/whole");
+  install(test::builtPath("standins/whole"));
   setUpTouch();
   service_ = std::make_unique<test::HaplyStandin>();
   const nlohmann::json json = listed();
@@ -107,7 +108,7 @@ TEST_F(MakerProgram, ListsTheDevicesOfDriversThatAreThere) {
 }
 
 TEST_F(MakerProgram, NamesTheFunctionThatAnOldDriverLacks) {
-  install(NEARFIT_STANDINS "/old");
+  install(test::builtPath("standins/old"));
   setUpTouch();
   const test::ProcessResult text = run({"devices"});
   EXPECT_THAT(text.out, HasSubstr("\nOpenHaptics: libHD.so lacks hdUnschedule"));
@@ -115,7 +116,7 @@ TEST_F(MakerProgram, NamesTheFunctionThatAnOldDriverLacks) {
 }
 
 TEST_F(MakerProgram, DoesWithoutFunctionsThatADriverMayLack) {
-  install(NEARFIT_STANDINS "/spare");
+  install(test::builtPath("standins/spare"));
   // A sigma.7, whose gripper this version of the SDK cannot read, nor say which version it is.
   const ScopedVariable sigma("NEARFIT_STANDIN_MODEL", "104");
   const test::ProcessResult shown =
@@ -132,7 +133,8 @@ TEST_F(MakerProgram, DoesWithoutFunctionsThatADriverMayLack) {
 
 /// A maker's device, as a report names it and what it senses and pushes.
 struct ReportedDevice {
-  const char *libraries, *place, *name;
+  std::string libraries;
+  const char *place, *name;
   int sensedAxes, forceAxes;
 };
 
@@ -140,7 +142,7 @@ TEST_F(MakerProgram, AReportOfEachMakersDeviceIsWhole) {
   setUpTouch();
   service_ = std::make_unique<test::HaplyStandin>();
   // libdhd.so alone: Force Dimension does without the library that calibrates.
-  const char *const dhd = NEARFIT_STANDINS "/dhd", *const whole = NEARFIT_STANDINS "/whole";
+  const std::string dhd = test::builtPath("standins/dhd"), whole = test::builtPath("standins/whole");
   for (const ReportedDevice& device :
        {ReportedDevice{dhd, "forcedimension:1", "omega.6, SDK 3.17.1", 6, 3},
         ReportedDevice{whole, "openhaptics:1", "Touch, OpenHaptics 3.50.0, driver 2.7", 6, 3},
@@ -175,10 +177,10 @@ TEST_F(MakerProgram, AReportOfEachMakersDeviceIsWhole) {
 }
 
 TEST_F(MakerProgram, EachDeviceLeadsAPart) {
-  install(NEARFIT_STANDINS "/whole");
+  install(test::builtPath("standins/whole"));
   setUpTouch();
   service_ = std::make_unique<test::HaplyStandin>();
-  const std::string demo = NEARFIT_SOURCE_DIR "/resources/demo/piston.nearfit";
+  const std::string demo = (test::sourceFolder() / "resources/demo/piston.nearfit").string();
   for (const char* device : {"openhaptics:1", "forcedimension:1", "haply:1"}) {
     const test::ProcessResult result =
         run({"place", demo, "--part", "piston head", "--device", device, "--arm", "--seconds", "0.5"});
@@ -194,7 +196,7 @@ class MakerProgramInContact : public MakerProgram {
   static constexpr const char* kSinking = "0.02";  ///< The hand's, in the device's own time [m/s].
 
   MakerProgramInContact() {
-    install(NEARFIT_STANDINS "/whole");
+    install(test::builtPath("standins/whole"));
     setUpTouch();
     folder_.write("peg.obj", test::objText(test::boxMesh({0.04, 0.04, 0.1}, {0.0, 0.0, 0.05 + kPegGap})));
     folder_.write("floor.obj", test::objText(test::boxMesh({0.4, 0.4, 0.1}, {0.0, 0.0, -0.05})));
@@ -262,8 +264,8 @@ TEST_F(MakerProgramInContact, ADeviceThatIsUnpluggedEndsTheRunAndIsBackOncePlugg
 }
 
 TEST_F(MakerProgram, ARecordingHasTheGripOfADeviceWithAGripper) {
-  install(NEARFIT_STANDINS "/whole");
-  const std::string demo = NEARFIT_SOURCE_DIR "/resources/demo/piston.nearfit";
+  install(test::builtPath("standins/whole"));
+  const std::string demo = (test::sourceFolder() / "resources/demo/piston.nearfit").string();
   const std::optional<double> resting = test::StandinDevice::kRestingGrip;
   for (const auto& [model, grip] : {std::pair{"104", resting}, std::pair{"34", std::optional<double>()}}) {
     const fs::path file = folder_.path() / (std::string(model) + ".csv");

@@ -27,6 +27,7 @@
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/app/desktop/dialog_answers.h"
 #include "tests/app/desktop/fake_device.h"
+#include "tests/support/places.h"
 #include "ui/files/recovery/recovery.h"
 #include "ui/files/unit_dialog.h"
 #include "ui/model/selection.h"
@@ -530,7 +531,7 @@ class Pictures {
 
   /// Opens a file of the models beside the repository in a scene of its own.
   bool openModel(const char* name) {
-    const std::filesystem::path file = std::filesystem::path(NEARFIT_SHARED_DIR) / "models" / "public" / name;
+    const std::filesystem::path file = test::sharedFolder() / "models" / "public" / name;
     if (!std::filesystem::exists(file)) {
       std::fprintf(stderr, "nearfit-pictures: %s is missing\n", file.c_str());
       ++failures_;

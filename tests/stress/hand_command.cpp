@@ -20,6 +20,7 @@
 #include "tests/stress/hand_run.h"
 #include "tests/stress/stress_scene.h"
 #include "tests/stress/tick_shares.h"
+#include "tests/support/places.h"
 
 namespace nearfit::stress {
 namespace {
@@ -98,7 +99,7 @@ std::vector<Row> runScenes(const std::vector<StressEntry>& scenes, const HandOpt
 void run(const HandOptions& options) {
   fmt::print("{}", bench::machineComment());
   std::fflush(stdout);
-  const std::vector<StressEntry> scenes = chosenScenes(stressScenes(NEARFIT_SHARED_DIR), options.scenes);
+  const std::vector<StressEntry> scenes = chosenScenes(stressScenes(test::sharedFolder()), options.scenes);
   const std::vector<StressMode> modes = stressModes(options.modes);
   fmt::print("{}", kColumns);
   std::ptrdiff_t failures = 0;

@@ -9,6 +9,7 @@
 #include "core/import/mesh_import.h"
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/places.h"
 
 namespace nearfit::stress {
 namespace {
@@ -81,7 +82,7 @@ std::vector<BodyPair> oraclePairs() {
        {"cones", coneMesh(0.5, 0.5, 24), coneMesh(0.5, 1e-8, 7)},
        {"two-boxes", joined(boxMesh({0.5, 0.5, 0.5}, {0.25, 0.25, 0.0}), boxMesh({0.5, 0.5, 0.5})), tetra},
        {"inside-out", turned(starMesh(5, 0.5, 1, 0.3)), block}}};
-  const std::filesystem::path files = std::filesystem::path(NEARFIT_SHARED_DIR) / "models/nasty";
+  const std::filesystem::path files = test::sharedFolder() / "models/nasty";
   const std::array<std::pair<const char*, const TriangleMesh*>, 4> names{
       {{"obj_nonmanifold_vierbein.obj", &tetra},
        {"obj_wallhole.obj", &block},

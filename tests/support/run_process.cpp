@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::test {
@@ -82,7 +83,7 @@ ProcessResult runProcess(const std::vector<std::string>& arguments, const Proces
 }
 
 ProcessResult runCli(std::vector<std::string> arguments, const ProcessOptions& options) {
-  arguments.insert(arguments.begin(), NEARFIT_CLI);
+  arguments.insert(arguments.begin(), builtPath("nearfit-cli"));
   return runProcess(arguments, options);
 }
 

@@ -10,6 +10,7 @@
 #include "device/interface/device_supervisor.h"
 #include "tests/app/cli/place_fixture.h"
 #include "tests/support/eventually.h"
+#include "tests/support/places.h"
 
 namespace nearfit::test::emulated_program_test {
 namespace {
@@ -20,8 +21,8 @@ using ::testing::HasSubstr;
 class EmulatedProgram : public PlaceFixture {
  protected:
   ProcessResult run(std::vector<std::string> emulation, const std::vector<std::string>& arguments) const {
-    emulation.insert(emulation.begin(), NEARFIT_EMULATE);
-    emulation.insert(emulation.end(), {"--", NEARFIT_CLI});
+    emulation.insert(emulation.begin(), test::builtPath("nearfit-emulate"));
+    emulation.insert(emulation.end(), {"--", test::builtPath("nearfit-cli")});
     emulation.insert(emulation.end(), arguments.begin(), arguments.end());
     return runProcess(emulation, options_);
   }

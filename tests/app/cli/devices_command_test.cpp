@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/cli/place_fixture.h"
+#include "tests/support/places.h"
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
 
@@ -45,7 +46,7 @@ TEST(DevicesCommand, ListsWhatThereIsAndHandsThatNeedNoDevice) {
 TEST(DevicesCommand, TheUdevRulesArePrintedAsTheyAreInstalled) {
   const ProcessResult result = runCli({"devices", "--udev-rules"});
   EXPECT_EQ(result.exitCode, 0) << result.err;
-  EXPECT_EQ(result.out, readBytes(std::string(NEARFIT_SOURCE_DIR) + "/resources/udev/70-nearfit.rules"));
+  EXPECT_EQ(result.out, readBytes(test::sourceFolder() / "resources/udev/70-nearfit.rules"));
 }
 
 TEST(DevicesCommand, WatchingEndsWhenItsTimeIsUp) {

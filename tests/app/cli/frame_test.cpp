@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/places.h"
 #include "tests/support/run_process.h"
 
 namespace nearfit::test::frame_test {
@@ -81,7 +82,7 @@ TEST(CliFrame, OutputThatDoesNotArriveIsAnError) {
 }
 
 TEST(CliFrame, StartsWithoutQtVtkOrOpenCascade) {
-  const ProcessResult result = runProcess({"ldd", NEARFIT_CLI});
+  const ProcessResult result = runProcess({"ldd", test::builtPath("nearfit-cli")});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("libstdc++"));
   EXPECT_THAT(result.out, Not(ContainsRegex("lib(Qt|vtk|TK[A-Z]|X11|GL)")));

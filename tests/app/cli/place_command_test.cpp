@@ -18,6 +18,7 @@
 #include "tests/support/eventually.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"
+#include "tests/support/places.h"
 #include "tests/support/run_process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -223,8 +224,8 @@ TEST_F(PlaceCommand, RecordingThatCannotGoOnKeepsItsRows) {
   // In units of 512 or 1,024 bytes, as the shell has it.
   const std::string script = "ulimit -f 256; exec \"$0\" \"$@\"";
   const ProcessResult result =
-      runProcess({"/bin/sh", "-c", script, NEARFIT_CLI, "place", "fit.nearfit", "--part", "Cone", "--path",
-                  "path.csv", "--fast", "--record", "out.csv"},
+      runProcess({"/bin/sh", "-c", script, test::builtPath("nearfit-cli"), "place", "fit.nearfit", "--part",
+                  "Cone", "--path", "path.csv", "--fast", "--record", "out.csv"},
                  options_);
   EXPECT_EQ(result.exitCode, 1) << result.err;
   EXPECT_EQ(linesOf(result.err).size(), 1U);
@@ -282,9 +283,10 @@ int interruptOnce(const std::vector<std::string>& arguments, const std::filesyst
 TEST_F(PlaceCommand, AnInterruptStopsItAndKeepsWhatWasDone) {
   constexpr int kLong = 60000;
   folder_.write("long.csv", pathText(kLong));
-  const int exitCode = interruptOnce({NEARFIT_CLI, "place", "fit.nearfit", "--part", "Cone", "--path",
-                                      "long.csv", "--record", "out.csv", "--export", "out.json"},
-                                     folder_.path(), "out.unfinished.csv");
+  const int exitCode =
+      interruptOnce({test::builtPath("nearfit-cli"), "place", "fit.nearfit", "--part", "Cone", "--path",
+                     "long.csv", "--record", "out.csv", "--export", "out.json"},
+                    folder_.path(), "out.unfinished.csv");
   EXPECT_EQ(exitCode, 1);
   EXPECT_THAT(readBytes(file("err.txt")), HasSubstr("interrupted after"));
   const Record record(file("out.csv"));
@@ -296,7 +298,7 @@ TEST_F(PlaceCommand, AnInterruptStopsItAndKeepsWhatWasDone) {
 
 TEST_F(PlaceCommand, ARoundPegGoesDownItsHoleWithTheGapItWasMadeWith) {
   // Pegs run z 0..50 mm, holes z 0..9 mm, both on the z axis; the radial gap is 0.26 mm.
-  const std::filesystem::path shared = std::filesystem::path(NEARFIT_SHARED_DIR) / "models/public/peghole";
+  const std::filesystem::path shared = test::sharedFolder() / "models/public/peghole";
   std::string hole = (shared / "factory_round_hole_16mm_subdiv_3x.obj").string();
   std::string peg = (shared / "factory_round_peg_16mm_loose.obj").string();
   if (!std::filesystem::exists(hole) || !std::filesystem::exists(peg)) {

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "tests/app/desktop/desktop_driver.h"
+#include "tests/support/places.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -28,7 +29,7 @@ ProgramOutcome run(const QStringList& arguments,
   own.insert(QStringLiteral("XDG_CONFIG_HOME"), QString::fromStdString(home.path().string()));
   QProcess process;
   process.setProcessEnvironment(own);
-  process.start(QStringLiteral(NEARFIT_DESKTOP), arguments);
+  process.start(QString::fromStdString(test::builtPath("nearfit")), arguments);
   if (!process.waitForFinished(60'000)) return {};
   const int code = process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -1;
   return {code, QString::fromLocal8Bit(process.readAllStandardOutput()),
@@ -97,7 +98,7 @@ void DesktopCommandLineTest::aToleranceOutOfRangeIsAUsageError() {
 /// Only the programs that read and write CAD files are linked to it.
 void DesktopCommandLineTest::startsWithoutOpenCascade() {
   QProcess ldd;
-  ldd.start(QStringLiteral("ldd"), {QStringLiteral(NEARFIT_DESKTOP)});
+  ldd.start(QStringLiteral("ldd"), {QString::fromStdString(test::builtPath("nearfit"))});
   QVERIFY(ldd.waitForFinished(60'000));
   QCOMPARE(ldd.exitCode(), 0);
   const QString libraries = QString::fromLocal8Bit(ldd.readAllStandardOutput());

@@ -8,6 +8,7 @@
 #include "tests/app/cli/place_fixture.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/support/eventually.h"
+#include "tests/support/places.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -59,9 +60,9 @@ class EmulatedBench {
     process.setProcessEnvironment(environment);
     process.setWorkingDirectory(QString::fromStdString(folder_.path().string()));
     QStringList all = emulation;
-    all << QStringLiteral("--") << QStringLiteral(NEARFIT_DESKTOP) << QStringLiteral("fit.nearfit")
-        << arguments;
-    process.start(QStringLiteral(NEARFIT_EMULATE), all);
+    all << QStringLiteral("--") << QString::fromStdString(test::builtPath("nearfit"))
+        << QStringLiteral("fit.nearfit") << arguments;
+    process.start(QString::fromStdString(test::builtPath("nearfit-emulate")), all);
     if (!process.waitForFinished(120'000)) return {};
     const int code = process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -1;
     return {code, QString::fromLocal8Bit(process.readAllStandardOutput()),

@@ -9,6 +9,7 @@
 #include "core/recovery/recovery_folder.h"
 #include "core/scene/scene_file.h"
 #include "tests/app/desktop/recovery_driver.h"
+#include "tests/support/places.h"
 #include "tests/support/process_identity_of.h"
 #include "ui/files/recovery/autosave.h"
 #include "ui/files/recovery/recovery.h"
@@ -177,7 +178,7 @@ void DesktopRecoveryTest::theProgramItselfIsKilledAndItsSceneComesBack() {
   environment.insert(QStringLiteral("XDG_STATE_HOME"), home);
   environment.insert(QStringLiteral("XDG_CONFIG_HOME"), home);
   program.setProcessEnvironment(environment);
-  program.start(QStringLiteral(NEARFIT_DESKTOP),
+  program.start(QString::fromStdString(test::builtPath("nearfit")),
                 {QString::fromStdString(file.string()), home + QStringLiteral("/moving.off"),
                  QStringLiteral("--unit"), QStringLiteral("mm")});
   const fs::path state = place.folder.path() / "nearfit" / "recovery";

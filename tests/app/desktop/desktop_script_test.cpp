@@ -3,6 +3,7 @@
 
 #include "core/scene/scene_file.h"
 #include "tests/app/desktop/desktop_driver.h"
+#include "tests/support/places.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -70,8 +71,9 @@ void DesktopScriptTest::aRecordedSessionLeadsToTheSameSceneInAWindowAndWithoutOn
   QVERIFY(other.session().file().empty());
 
   QProcess program;
-  program.start(QStringLiteral(NEARFIT_CLI), {QStringLiteral("script"), script, QStringLiteral("-o"),
-                                              pathIn(d.folder, QStringLiteral("out.nearfit"))});
+  program.start(QString::fromStdString(test::builtPath("nearfit-cli")),
+                {QStringLiteral("script"), script, QStringLiteral("-o"),
+                 pathIn(d.folder, QStringLiteral("out.nearfit"))});
   QVERIFY(program.waitForFinished(60'000));
   QVERIFY2(program.exitCode() == 0, program.readAllStandardError().constData());
   QCOMPARE(QString::fromStdString(readBytes(d.folder.path() / "out.nearfit")),

@@ -16,6 +16,7 @@
 #include "tests/app/desktop/recovery_driver.h"
 #include "tests/app/desktop/view_driver.h"
 #include "tests/exact/pose_certifier.h"
+#include "tests/support/places.h"
 #include "ui/model/parts_model.h"
 #include "ui/model/selection.h"
 #include "ui/widgets/number_field.h"
@@ -30,7 +31,7 @@ namespace {
 /// A round peg in its hole and a square one, the key, in its slot, all on the z axis; files in metres.
 struct WorkPlace {
   WorkPlace() {
-    const fs::path models = fs::path(NEARFIT_SHARED_DIR) / "models/public/peghole";
+    const fs::path models = test::sharedFolder() / "models/public/peghole";
     const std::pair<const char*, const char*> real[] = {
         {"hole.obj", "factory_round_hole_16mm_subdiv_3x.obj"},
         {"peg.obj", "factory_round_peg_16mm_loose.obj"},
@@ -299,7 +300,7 @@ class DesktopSessionTest : public QObject {
 void DesktopSessionTest::work(const WorkPlace& place) {
   QProcess process;
   process.setProcessChannelMode(QProcess::ForwardedChannels);
-  process.start(QStringLiteral(NEARFIT_EMULATE),
+  process.start(QString::fromStdString(test::builtPath("nearfit-emulate")),
                 QStringList{QStringLiteral("openhap"), QStringLiteral("--"),
                             QCoreApplication::applicationFilePath(), QStringLiteral("desktop_session_test"),
                             QStringLiteral("--work"), QString::fromStdString(place.folder.path().string())} +

@@ -14,6 +14,7 @@
 
 #include "tests/app/desktop/export_driver.h"
 #include "tests/app/desktop/file_drop.h"
+#include "tests/support/places.h"
 #include "tests/support/scoped_variable.h"
 #include "ui/model/selection.h"
 
@@ -22,7 +23,7 @@ using namespace nearfit::test;
 
 namespace {
 
-const std::filesystem::path kImportTests = std::filesystem::path(NEARFIT_SOURCE_DIR) / "tests/app/import";
+const std::filesystem::path kImportTests = test::sourceFolder() / "tests/app/import";
 
 QString ownModel(const char* name) {
   return nameOf(kImportTests / "models" / name);
@@ -35,7 +36,7 @@ struct StepFile {
 
 /// The file beside the repository, or one of the tests where it is not there.
 StepFile sharedOr(const char* shared, const char* part, const StepFile& own) {
-  const std::filesystem::path file = std::filesystem::path(NEARFIT_SHARED_DIR) / "models/public" / shared;
+  const std::filesystem::path file = test::sharedFolder() / "models/public" / shared;
   return std::filesystem::exists(file) ? StepFile{nameOf(file), QLatin1String(part)} : own;
 }
 
@@ -183,7 +184,7 @@ class HeldImport : public StepDesk {
     // It becomes the importer, under a number that is known then.
     const std::filesystem::path script =
         folder.write("importer", fmt::format("#!/bin/sh\necho $$ > '{}'\nexec '{}' \"$@\"\n",
-                                             pidFile_.string(), NEARFIT_IMPORT_PROGRAM));
+                                             pidFile_.string(), test::builtPath("nearfit-import")));
     std::filesystem::permissions(script, std::filesystem::perms::owner_all);
     const ScopedVariable chosen("NEARFIT_IMPORT", script.string());
     drop(window(), {nameOf(large_)});
@@ -246,8 +247,8 @@ class DesktopStepFilesTest : public QObject {
 
  private slots:
   void initTestCase() {
-    qputenv("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
-    qputenv("NEARFIT_EXPORT", NEARFIT_EXPORT_PROGRAM);
+    qputenv("NEARFIT_IMPORT", QByteArray::fromStdString(test::builtPath("nearfit-import")));
+    qputenv("NEARFIT_EXPORT", QByteArray::fromStdString(test::builtPath("nearfit-export")));
   }
   void init() { QSettings().clear(); }
   void anAssemblyIsFeltSavedAndOpenedAgainAsItIs_data();

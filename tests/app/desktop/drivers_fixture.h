@@ -9,6 +9,7 @@
 #include "app/desktop/device_source.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/makers/maker_bench.h"
+#include "tests/support/places.h"
 #include "tests/support/scoped_variable.h"
 
 namespace nearfit::test {
@@ -20,7 +21,7 @@ inline constexpr const char* kNoHaply = "1";
 struct DriversFixture {
   explicit DriversFixture(const std::string& haplyPort = kNoHaply) : haply("NEARFIT_HAPLY_PORT", haplyPort) {}
 
-  ScopedVariable plugins{"NEARFIT_PLUGINS", NEARFIT_PLUGIN_FOLDER};
+  ScopedVariable plugins{"NEARFIT_PLUGINS", test::builtPath("plugins")};
   ScopedVariable haply;
   DesktopDriver d{desktop::makeDeviceSource()};
 

@@ -20,6 +20,7 @@
 #include "core/scene/document_parts.h"
 #include "tests/app/import/import_fixture.h"
 #include "tests/core/report/assembly_fixture.h"
+#include "tests/support/places.h"
 #include "tests/support/run_process.h"
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
@@ -96,7 +97,7 @@ class AssemblyExport : public ::testing::Test {
     file_ = folder_.path() / name;
     SceneExport what;
     what.kind = *exportKindOf(file_);
-    const ScopedVariable program("NEARFIT_EXPORT", NEARFIT_EXPORT_PROGRAM);
+    const ScopedVariable program("NEARFIT_EXPORT", test::builtPath("nearfit-export"));
     return exportScene(scene, {}, what, file_);
   }
   static std::map<std::string, std::size_t> nodesOf(const CadDocument& document) {
@@ -138,7 +139,7 @@ class AssemblyExport : public ::testing::Test {
 
 /// A scene of a document's parts.
 Scene sceneOf(const fs::path& file, double metresPerUnit = 1.0) {
-  const ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const ScopedVariable program("NEARFIT_IMPORT", test::builtPath("nearfit-import"));
   Scene scene;
   addTo(scene, partsOfDocument(loadDocument(file, metresPerUnit), scene));
   return scene;
@@ -386,8 +387,8 @@ TEST_F(AssemblyExport, UrdfIsReadByUrdfdom) {
 TEST_F(AssemblyExport, TheCommandLineWritesStepOfBothSchemas) {
   const std::string scene = (folder_.path() / "s.nearfit").string(),
                     out = (folder_.path() / "o.stp").string();
-  const ScopedVariable importer("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM),
-      exporter("NEARFIT_EXPORT", NEARFIT_EXPORT_PROGRAM);
+  const ScopedVariable importer("NEARFIT_IMPORT", test::builtPath("nearfit-import")),
+      exporter("NEARFIT_EXPORT", test::builtPath("nearfit-export"));
   ASSERT_EQ(
       test::runCli({"scene", "new", scene, "--import", importModel("assembly_ap242.step").string()}).exitCode,
       0);

@@ -23,6 +23,7 @@
 #include "core/servo/motion_reader.h"
 #include "tests/app/import/import_fixture.h"
 #include "tests/exact/pose_certifier.h"
+#include "tests/support/places.h"
 #include "tests/support/run_process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -76,7 +77,7 @@ std::string pathInto(const RigidTransform& worldFromPeg) {
 }
 
 TEST(ImportFit, ARoundPegGoesIntoABoreThroughTheProxyAndNeverMeetsThePlate) {
-  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable program("NEARFIT_IMPORT", test::builtPath("nearfit-import"));
   const test::TemporaryFolder folder;
   test::ProcessOptions options;
   options.workingFolder = folder.path();
@@ -156,7 +157,7 @@ void expectOneAxis(const glm::dvec3& point, const glm::dvec3& direction, const g
 }
 
 TEST(ImportFit, AlignFindsTheTrueAxisAndRadiusOfTheBoreWhateverItsFacets) {
-  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable program("NEARFIT_IMPORT", test::builtPath("nearfit-import"));
   const glm::dvec3 boreTop = worldFromPlate().applyToPoint(kBoreTop);
   const glm::dvec3 boreAxis = worldFromPlate().applyToVector({0, 0, 1});
   std::size_t coarsest = SIZE_MAX, finest = 0;

@@ -12,23 +12,24 @@
 
 #include "core/import/document_import.h"
 #include "core/math/aabb.h"
+#include "tests/support/places.h"
 #include "tests/support/scoped_variable.h"
 
 /// Documents imported by the program that ships, and what is measured of them.
 namespace nearfit::test {
 
 inline std::filesystem::path importModel(const std::string& name) {
-  return std::filesystem::path(NEARFIT_SOURCE_DIR) / "tests" / "app" / "import" / "models" / name;
+  return test::sourceFolder() / "tests" / "app" / "import" / "models" / name;
 }
 
 /// Public models beside the repository, where they are.
 inline std::filesystem::path sharedModel(const std::string& name) {
-  return std::filesystem::path(NEARFIT_SHARED_DIR) / "models" / name;
+  return test::sharedFolder() / "models" / name;
 }
 
 inline CadDocument imported(const std::filesystem::path& file, const DocumentOptions& options = {},
                             const ProgressCallback& progress = {}) {
-  const ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const ScopedVariable program("NEARFIT_IMPORT", test::builtPath("nearfit-import"));
   return importDocument(file, options, progress);
 }
 

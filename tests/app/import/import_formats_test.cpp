@@ -25,6 +25,7 @@
 #include "tests/app/import/import_fixture.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/places.h"
 #include "tests/support/run_process.h"
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
@@ -40,7 +41,7 @@ using test::TemporaryFolder;
 using testing::HasSubstr;
 
 TEST(Importer, SaysItsVersionAndThatOfOpenCascade) {
-  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable program("NEARFIT_IMPORT", test::builtPath("nearfit-import"));
   EXPECT_THAT(importerVersion(),
               testing::MatchesRegex("nearfit-import [0-9.]+, OpenCASCADE [0-9]+\\.[0-9]+.*"));
 }
@@ -139,7 +140,7 @@ TEST(ImportFormats, ASolidThatLacksAFaceIsSaidNotToBeClosedAndHasNoExactVolume) 
   // The face was a rectangle, whose edges are straight.
   const std::string warning = "It is not closed: 4 edges of triangles belong to one face only.";
   EXPECT_THAT(document.shapes[0].warnings, testing::ElementsAre(warning));
-  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable program("NEARFIT_IMPORT", test::builtPath("nearfit-import"));
   const test::ScopedVariable where("NEARFIT_CACHE", cache.path().string());
   const test::ProcessResult info = test::runCli({"info", "--unit", "mm", file.string()});
   EXPECT_EQ(info.exitCode, 0) << info.err;
@@ -157,7 +158,7 @@ TEST(ImportFormats, AStepSolidThatLacksAFaceIsSaidToBeOpen) {
   const std::size_t face = shell + head.size();
   bytes.erase(face, bytes.find(',', face) + 1 - face);
   const fs::path file = folder.write("open.step", bytes);
-  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable program("NEARFIT_IMPORT", test::builtPath("nearfit-import"));
   const test::ScopedVariable where("NEARFIT_CACHE", cache.path().string());
   const test::ProcessResult info = test::runCli({"info", "--json", file.string()});
   ASSERT_EQ(info.exitCode, 0) << info.err;
@@ -231,7 +232,7 @@ TEST(ImportFormats, ProgressGrowsWhileOneFaceIsMeshed) {
 /// Fractions below `end` that the importer tells while it opens a file: all of them, however late they are read.
 std::vector<double> toldBelow(double end, const fs::path& file) {
   const test::ProcessResult run =
-      test::runProcess({NEARFIT_IMPORT_PROGRAM, "--messages", "1", "--", file.string()});
+      test::runProcess({test::builtPath("nearfit-import"), "--messages", "1", "--", file.string()});
   EXPECT_EQ(run.exitCode, 0) << run.err;
   std::vector<double> told;
   for (const std::string& line : test::linesOf(run.out)) {
@@ -633,7 +634,7 @@ std::string robot(const std::string& mesh) {
 
 TEST(ImportFormats, DocumentsOfSeveralFilesComeFromTheCacheUntilOneChanges) {
   const TemporaryFolder folder, cache;
-  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable program("NEARFIT_IMPORT", test::builtPath("nearfit-import"));
   const test::ScopedVariable where("NEARFIT_CACHE", cache.path().string());
   fs::create_directories(folder.path() / "arm" / "meshes");
   folder.write("arm/meshes/cube.stl", test::stlBinary(test::boxMesh(glm::dvec3(1.0), glm::dvec3(0.5))));

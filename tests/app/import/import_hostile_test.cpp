@@ -20,6 +20,7 @@
 
 #include "core/base/error.h"
 #include "tests/app/import/import_fixture.h"
+#include "tests/support/places.h"
 #include "tests/support/run_process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -445,7 +446,7 @@ TEST_F(ImportHostile, ProgressGrowsToItsEnd) {
 }
 
 TEST(ImportSandbox, MemoryAndTimeForASmallFileAreLimitedAsTheDocumentationSays) {
-  const std::string tried = test::runProcess({NEARFIT_IMPORT_PROGRAM, "--try-sandbox"}).out;
+  const std::string tried = test::runProcess({test::builtPath("nearfit-import"), "--try-sandbox"}).out;
   EXPECT_THAT(tried, HasSubstr("processor time: at most 120 s"));
   if (kIsMemoryLimited) {
     EXPECT_THAT(tried, HasSubstr("memory: at most 2048 MiB"));
@@ -453,8 +454,8 @@ TEST(ImportSandbox, MemoryAndTimeForASmallFileAreLimitedAsTheDocumentationSays) 
 }
 
 TEST(ImportSandbox, NothingButReadingIsAllowedWhereTheKernelCanForbidIt) {
-  const std::string version = test::runProcess({NEARFIT_IMPORT_PROGRAM, "--version"}).out;
-  const std::string tried = test::runProcess({NEARFIT_IMPORT_PROGRAM, "--try-sandbox"}).out;
+  const std::string version = test::runProcess({test::builtPath("nearfit-import"), "--version"}).out;
+  const std::string tried = test::runProcess({test::builtPath("nearfit-import"), "--try-sandbox"}).out;
   EXPECT_THAT(version, HasSubstr("sandbox:"));
   if (version.find("sanitizers") != std::string::npos) return;
   const bool hasSeccomp =

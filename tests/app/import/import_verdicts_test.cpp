@@ -11,6 +11,7 @@
 #include "tests/app/import/import_fixture.h"
 #include "tests/exact/exact_verdicts.h"
 #include "tests/support/part_geometries.h"
+#include "tests/support/places.h"
 #include "tests/support/scoped_variable.h"
 #include "tests/support/trial_share.h"
 
@@ -19,7 +20,7 @@ namespace nearfit::import_verdicts_test {
 namespace {
 
 LoadedDocument documentOf(const std::filesystem::path& file) {
-  const test::ScopedVariable program("NEARFIT_IMPORT", NEARFIT_IMPORT_PROGRAM);
+  const test::ScopedVariable program("NEARFIT_IMPORT", test::builtPath("nearfit-import"));
   return loadDocument(file, 1.0);
 }
 

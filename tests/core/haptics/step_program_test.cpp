@@ -9,6 +9,7 @@
 #include "tests/exact/exact_step.h"
 #include "tests/support/allocation_hook.h"
 #include "tests/support/step_problems.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::step_program_test {
 namespace {
@@ -161,7 +162,7 @@ TEST(StepProgram, SolutionsMeetTheConditionsOfKarushKuhnAndTucker) {
 
 TEST(StepProgram, SolutionsEqualThoseOfExactArithmetic) {
   StepProgram program;
-  forManyProblems(20, {0, 1, 3, 8, 32, 100, 256}, [&](const StepProblem& problem) {
+  forManyProblems(20 / test::kTrialShare, {0, 1, 3, 8, 32, 100, 256}, [&](const StepProblem& problem) {
     const StepSolution solution = program.solve(problem.rows, problem.goal);
     const test::ExactStep exact = test::exactStep(problem.rows, problem.goal.cost, problem.goal.wanted);
     const double length = test::lengthOf(problem);

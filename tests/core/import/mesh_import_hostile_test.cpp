@@ -14,6 +14,7 @@
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::mesh_import_hostile_test {
 namespace {
@@ -222,7 +223,9 @@ std::string repeated(const std::string& text, std::size_t times) {
 
 /// Files of a few megabytes made of whatever takes the most memory or time for its bytes.
 std::vector<Sample> heavyFiles() {
-  constexpr std::size_t kMany = 400'000;
+  constexpr std::size_t kMany = 400'000 / test::kTrialShare;
+  // Four times as many triangles a level.
+  constexpr std::uint32_t kLevels = test::kTrialShare == 1 ? 7 : 6;
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   std::string polygon = "f", star;
   for (int i = 1; i <= 3000; ++i)
@@ -244,9 +247,9 @@ std::vector<Sample> heavyFiles() {
                         std::string("\0\0\x80\x3F", 4) + std::string(16, '\0') +
                         std::string("\0\0\x80\x3F", 4) + std::string(4, '\0') +
                         std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13) + std::string(4 * kMany, '\0')},
-      {"large.ply", test::plyBinary(test::icosphereMesh(1.0, 7))},
-      {"large.stl", test::stlBinary(test::icosphereMesh(1.0, 7))},
-      {"large.off", test::offText(test::icosphereMesh(1.0, 7))},
+      {"large.ply", test::plyBinary(test::icosphereMesh(1.0, kLevels))},
+      {"large.stl", test::stlBinary(test::icosphereMesh(1.0, kLevels))},
+      {"large.off", test::offText(test::icosphereMesh(1.0, kLevels))},
   };
 }
 

@@ -14,6 +14,7 @@
 #include "tests/support/limited_process.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::mesh_import_models_test {
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const fs::path kModels = fs::path(NEARFIT_SHARED_DIR) / "models";
+const fs::path kModels = test::sharedFolder() / "models";
 
 /// A line of MANIFEST.tsv, by column.
 using ManifestEntry = std::map<std::string, std::string>;

@@ -21,6 +21,7 @@
 #include "core/mesh/mass_properties.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/places.h"
 #include "tests/support/trial_share.h"
 
 namespace nearfit::flat_mesh_test {
@@ -290,14 +291,14 @@ TEST(FlatMesh, GeneratedMeshesStayWhole) {
 
 // Real meshes, drawn by many programs, where they are there.
 TEST(FlatMesh, RealMeshesStayWhole) {
-  const std::filesystem::path models = std::filesystem::path(NEARFIT_SHARED_DIR) / "models";
+  const std::filesystem::path models = test::sharedFolder() / "models";
   if (!std::filesystem::is_directory(models)) return;
   std::size_t meshes = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(models)) {
     const std::string kind = entry.path().extension().string();
     const bool isMesh =
         kind == ".stl" || kind == ".STL" || kind == ".obj" || kind == ".off" || kind == ".ply";
-    if (!entry.is_regular_file() || !isMesh || entry.file_size() > 3'000'000) continue;
+    if (!entry.is_regular_file() || !isMesh || entry.file_size() > 3'000'000 / test::kTrialShare) continue;
     ImportedMesh imported;
     try {
       imported = importMesh(entry.path(), {});

@@ -8,12 +8,16 @@
 #include "core/scene/scene_tree.h"
 #include "core/session/session.h"
 #include "tests/core/scene/scene_file_fixture.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::scene_file_test {
 namespace {
 
 using Json = nlohmann::json;
 class SceneFile : public test::SceneFileFixture {};
+
+/// How many parts the tests of many have.
+constexpr int kMany = 10'000 / test::kTrialShare;
 
 /// Where a group stands, as the names from the top down.
 std::string pathOf(const Scene& scene, std::optional<GroupId> id) {
@@ -90,12 +94,12 @@ void expectSameScene(const Scene& a, const Scene& b) {
   expectSamePairs(a, b);
 }
 
-TEST_F(SceneFile, TenThousandPartsOfOneMeshHaveOneGeometry) {
+TEST_F(SceneFile, ManyPartsOfOneMeshHaveOneGeometry) {
   Json json = json_;
   Json part = json["parts"][1];
   json["parts"] = json["joints"] = Json::array();
   json["moving"] = nullptr;
-  for (int i = 0; i < 10'000; ++i) {
+  for (int i = 0; i < kMany; ++i) {
     part["name"] = "Peg " + std::to_string(i);
     json["parts"].push_back(part);
   }
@@ -103,7 +107,7 @@ TEST_F(SceneFile, TenThousandPartsOfOneMeshHaveOneGeometry) {
   int reports = 0;
   const Scene scene = readSceneFile(file_, [&](double) { return ++reports > 0; });
   const std::vector<PartGeometryPtr> geometries = scene.geometries();
-  ASSERT_EQ(geometries.size(), 10'000U);
+  ASSERT_EQ(geometries.size(), std::size_t{kMany});
   for (const PartGeometryPtr& geometry : geometries)
     ASSERT_EQ(geometry, geometries.front());
   // One mesh of four faces was read, and its hierarchy is built once: tens of reports, not tens of thousands.
@@ -113,7 +117,7 @@ TEST_F(SceneFile, TenThousandPartsOfOneMeshHaveOneGeometry) {
 }
 
 TEST_F(SceneFile, MeshesThatHaveChangedAreListedOnceEach) {
-  constexpr int kMeshes = 100, kParts = 10'000;
+  constexpr int kMeshes = 100, kParts = kMany;
   const std::filesystem::path meshes = folder_.path() / "meshes";
   for (int i = 0; i < kMeshes; ++i)
     std::filesystem::create_hard_link(meshes / "peg.obj", meshes / (std::to_string(i) + ".obj"));
@@ -339,12 +343,12 @@ TEST_F(SceneFile, Version2KeepsAllThatItSaysAndStandsAtTheTop) {
   EXPECT_EQ(scene.movingPart(), scene.parts()[1]->id);
 }
 
-TEST_F(SceneFile, TenThousandPartsInTenThousandGroupsAreWrittenSoThatTheyCanBeRead) {
+TEST_F(SceneFile, ManyPartsInAsManyGroupsAreWrittenSoThatTheyCanBeRead) {
   Scene scene;
   Part part = *scene_.parts()[1];
   part.name = std::string(100, 'x');
   std::optional<GroupId> group;
-  for (int i = 0; i < 10'000; ++i) {
+  for (int i = 0; i < kMany; ++i) {
     group = scene.addGroup({{}, std::string(100, 'g'), i % 20 == 0 ? std::nullopt : group, false});
     part.group = group;
     part.name = "Part " + std::to_string(i);
@@ -352,7 +356,7 @@ TEST_F(SceneFile, TenThousandPartsInTenThousandGroupsAreWrittenSoThatTheyCanBeRe
   }
   writeSceneFile(scene, file_);
   const Scene read = readSceneFile(file_);
-  EXPECT_EQ(read.parts().size(), 10'000U);
+  EXPECT_EQ(read.parts().size(), std::size_t{kMany});
   expectSameGroups(read, scene);
 }
 

@@ -85,7 +85,7 @@ TEST(Proxy, NeverRestsShortOfAPlaceThatItCanReach) {
   // A step at the end of a tick's way is as short as one at rest.
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> exponent(-8.0, -3.0), way(-0.05, 0.05);
-  for (int i = 0; i < 200; ++i) {
+  for (std::size_t i = 0; i < 200 / test::kTrialShare; ++i) {
     ProxyWalk walk = cubeOverFloor(std::pow(10.0, exponent(random)));
     const glm::dvec3 wanted{way(random), way(random), 0.1};
     walk.hold(at(wanted), 60);

@@ -20,6 +20,7 @@
 #include "tests/support/documents.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::script_test {
@@ -263,7 +264,7 @@ TEST_F(EachStep, IsWrittenTheSameAfterItWasRead) {
 }
 
 TEST_F(ScriptTest, TheGuideHasAnExampleOfEachCommandThatWorks) {
-  const std::string guide = test::readBytes(fs::path(NEARFIT_SOURCE_DIR) / "resources/docs/scripts.md");
+  const std::string guide = test::readBytes(test::sourceFolder() / "resources/docs/scripts.md");
   std::string text = "{\"nearfitScript\": 1}\n";
   std::set<std::string> shown;
   for (std::size_t at = 0; (at = guide.find("\n    {\"do\"", at)) != std::string::npos; ++at) {

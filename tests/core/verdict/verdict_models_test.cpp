@@ -11,6 +11,7 @@
 #include "tests/exact/exact_verdicts.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
+#include "tests/support/places.h"
 #include "tests/support/random_values.h"
 #include "tests/support/trial_share.h"
 
@@ -108,7 +109,7 @@ TEST(ExactVerdicts, PiecesOfAMeshAreThoseWithoutACommonVertex) {
 
 /// Reduced: nearfit-bench verdicts has more places, and the models of STEP files.
 TEST(VerdictModels, PumpHasTheVerdictsOfExactArithmetic) {
-  const std::filesystem::path folder = std::filesystem::path(NEARFIT_SHARED_DIR) / "models/public/pump";
+  const std::filesystem::path folder = test::sharedFolder() / "models/public/pump";
   if (!std::filesystem::exists(folder)) return;
   constexpr double kThreshold = 2e-3;
   Scene drawn;

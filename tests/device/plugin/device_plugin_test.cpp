@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "device/interface/device_error.h"
+#include "tests/support/places.h"
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
 
@@ -32,7 +33,7 @@ std::string whyNot(const fs::path& file) {
 }
 
 TEST(DevicePlugin, ExampleIsLoadedOpenedReadAndPushed) {
-  const auto plugin = DevicePlugin::load(NEARFIT_EXAMPLE_PLUGIN);
+  const auto plugin = DevicePlugin::load(test::builtPath("test_plugins/libnearfit_example_plugin.so"));
   EXPECT_EQ(plugin->name(), "Example plug-in");
   const auto devices = plugin->devices();
   ASSERT_EQ(devices.size(), 1U);
@@ -64,7 +65,7 @@ TEST(DevicePlugin, ExampleIsLoadedOpenedReadAndPushed) {
 }
 
 TEST(DevicePlugin, ItsOwnWordsReachTheUser) {
-  const auto plugin = DevicePlugin::load(NEARFIT_EXAMPLE_PLUGIN);
+  const auto plugin = DevicePlugin::load(test::builtPath("test_plugins/libnearfit_example_plugin.so"));
   const test::ScopedVariable fails("NEARFIT_EXAMPLE_FAILS", "1");
   try {
     plugin->devices();
@@ -87,7 +88,7 @@ TEST(DevicePlugin, WhatIsNoneIsRefusedWithItsReason) {
 TEST(DevicePlugin, FilesThatOthersMayWriteAreNotLoaded) {
   const test::TemporaryFolder folder;
   const fs::path copy = folder.path() / "copy.so";
-  fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, copy);
+  fs::copy_file(test::builtPath("test_plugins/libnearfit_example_plugin.so"), copy);
   fs::permissions(copy, fs::perms::owner_all | fs::perms::others_write);
   EXPECT_THAT(whyNot(copy), HasSubstr("other users can write"));
   fs::permissions(copy, fs::perms::owner_all);
@@ -97,7 +98,7 @@ TEST(DevicePlugin, FilesThatOthersMayWriteAreNotLoaded) {
 TEST(DevicePlugin, FilesInFoldersThatOthersMayWriteAreNotLoaded) {
   const test::TemporaryFolder folder;
   const fs::path copy = folder.path() / "copy.so";
-  fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, copy);
+  fs::copy_file(test::builtPath("test_plugins/libnearfit_example_plugin.so"), copy);
   fs::permissions(copy, fs::perms::owner_all);
   fs::permissions(folder.path(), fs::perms::owner_all | fs::perms::group_write);
   EXPECT_THAT(whyNot(copy), HasSubstr("other users can write to its folder"));
@@ -109,7 +110,7 @@ TEST(DevicePlugin, FilesBelowFoldersThatOthersMayWriteAreNotLoaded) {
   const test::TemporaryFolder folder;
   const fs::path above = folder.path() / "above", inner = above / "inner", copy = inner / "copy.so";
   fs::create_directories(inner);
-  fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, copy);
+  fs::copy_file(test::builtPath("test_plugins/libnearfit_example_plugin.so"), copy);
   for (const fs::path& each : {copy, inner, above})
     fs::permissions(each, fs::perms::owner_all);
   EXPECT_EQ(whyNot(copy), "");
@@ -135,7 +136,7 @@ TEST(DevicePlugin, WhatIsCheckedIsWhatIsLoadedHoweverItsNameChanges) {
   const test::TemporaryFolder folder;
   const fs::path trusted = folder.path() / "trusted", foreign = folder.path() / "foreign";
   const fs::path name = folder.path() / "name.so", next = folder.path() / "next.so";
-  fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, trusted);
+  fs::copy_file(test::builtPath("test_plugins/libnearfit_example_plugin.so"), trusted);
   fs::permissions(trusted, fs::perms::owner_all);
   std::ofstream(foreign) << "what somebody else wrote: if it were loaded, the loader would complain";
   fs::permissions(foreign, fs::perms::owner_all | fs::perms::others_write);
@@ -160,7 +161,7 @@ TEST(DevicePlugin, TwoFilesAreTwoLibrariesWhateverWasLoadedBefore) {
   const test::TemporaryFolder folder;
   const fs::path one = folder.path() / "one.so", other = folder.path() / "other.so";
   for (const fs::path& file : {one, other}) {
-    fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, file);
+    fs::copy_file(test::builtPath("test_plugins/libnearfit_example_plugin.so"), file);
     fs::permissions(file, fs::perms::owner_all);
   }
   EXPECT_EQ(whyNot(one), "") << "its descriptor is free again";
@@ -214,7 +215,7 @@ TEST(DevicePlugin, ARateThatTheServoCannotKeepIsRefused) {
 TEST(DevicePlugin, FoldersAreSearchedAndProblemsAreTold) {
   const test::TemporaryFolder folder;
   const fs::path copy = folder.path() / "good.so", bad = folder.path() / "bad.so";
-  fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, copy);
+  fs::copy_file(test::builtPath("test_plugins/libnearfit_example_plugin.so"), copy);
   fs::permissions(copy, fs::perms::owner_all);
   std::ofstream(bad) << "bad";
   std::ofstream(folder.path() / "readme.txt") << "not looked at";

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::polhem::polhem_calibration_test {
@@ -15,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-const std::filesystem::path kFolder = std::filesystem::path(NEARFIT_SOURCE_DIR) / "resources/devices";
+const std::filesystem::path kFolder = test::sourceFolder() / "resources/devices";
 
 class PolhemCalibration : public testing::Test {
  protected:

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "device/interface/device_error.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::device_registry_test {
@@ -179,8 +180,7 @@ bool isAllowed(const std::string& rules, std::uint16_t vendor, std::uint16_t pro
 }
 
 TEST(UdevRules, LetUsersOpenEveryDeviceThatHasADriver) {
-  const std::string rules =
-      test::readBytes(std::filesystem::path(NEARFIT_SOURCE_DIR) / "resources/udev/70-nearfit.rules");
+  const std::string rules = test::readBytes(test::sourceFolder() / "resources/udev/70-nearfit.rules");
   for (const auto& [vendor, product] : {std::pair{0x1234, 0x0006},
                                         {0x16c0, 0x0486},
                                         {0x0403, 0xcb48},

@@ -14,6 +14,7 @@
 #include "core/session/session.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
+#include "tests/support/places.h"
 #include "tests/support/qt/qt_patience.h"
 #include "tests/support/qt/qt_suite.h"
 #include "tests/ui/view3d/picture_comparison.h"
@@ -31,9 +32,10 @@ using test::PictureDifference;
 namespace {
 
 /// Each version of VTK shades and draws lines a little differently.
-const QString kBaseline = QStringLiteral(NEARFIT_SOURCE_DIR "/tests/ui/baseline/vtk-%1.%2/")
-                              .arg(vtkVersion::GetVTKMajorVersion())
-                              .arg(vtkVersion::GetVTKMinorVersion());
+const QString kBaseline =
+    QString::fromStdString((test::sourceFolder() / "tests/ui/baseline/vtk-%1.%2/").string())
+        .arg(vtkVersion::GetVTKMajorVersion())
+        .arg(vtkVersion::GetVTKMinorVersion());
 
 SnapshotLmd minimum(const glm::dvec3& scenePoint, const glm::dvec3& partPoint, bool isBlocked = false) {
   SnapshotLmd minimum;

@@ -16,6 +16,7 @@
 #include "tests/exact/exact_meeting.h"
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/places.h"
 
 namespace nearfit::mesh_check_test {
 namespace {
@@ -304,7 +305,7 @@ TEST(MeshCheck, OfManyPlacesTheLargestAreListedAndAllAreCounted) {
 }
 
 TEST(MeshCheck, OpenEdgesOfFilesAreThoseCountedAnew) {
-  const std::filesystem::path models = std::filesystem::path(NEARFIT_SHARED_DIR) / "models";
+  const std::filesystem::path models = test::sharedFolder() / "models";
   for (const char* name :
        {"nasty/obj_nonmanifold_vierbein.obj", "nasty/obj_moebius.obj", "nasty/obj_wallhole.obj",
         "nasty/stl_motor_nonmanifold.stl", "nasty/stl_spider_degenerate.stl", "public/teapot_6320.obj",

@@ -39,15 +39,24 @@ class TreeCacheAttack : public testing::Test {
     entry_ = test::onlyFileIn(folder_.path());
   }
 
+  /// Larger than what one checksum covers, so that several threads read it; made once for all tests.
+  static const CachedMesh& sharedMesh() {
+    static const CachedMesh mesh = test::cachedMeshOf(test::icosphereMesh(1.0, 6));
+    return mesh;
+  }
+  static const CachedTree& sharedTree() {
+    static const CachedTree tree{NormalConeTree(sharedMesh().mesh), true};
+    return tree;
+  }
+
   bool isTaken() const {
     const auto file = cache_.find(kKey);
     return file && file->mesh();
   }
 
   test::TemporaryFolder folder_;
-  // Larger than what one checksum covers, so that several threads read it.
-  CachedMesh mesh_ = test::cachedMeshOf(test::icosphereMesh(1.0, 6));
-  CachedTree tree_{NormalConeTree(mesh_.mesh), true};
+  const CachedMesh& mesh_ = sharedMesh();
+  const CachedTree& tree_ = sharedTree();
   TreeCache cache_ = cacheIn(folder_.path());
   fs::path entry_;
 };

@@ -11,6 +11,7 @@
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/overlap/interference.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/places.h"
 
 namespace nearfit::interference_models_test {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 using Kind = InterferenceKind;
 
 constexpr double kQuarter = std::numbers::pi / 2;
-const std::filesystem::path kModels = std::filesystem::path(NEARFIT_SHARED_DIR) / "models/public";
+const std::filesystem::path kModels = test::sharedFolder() / "models/public";
 
 struct Built {
   Built(const std::string& file, const TriangleMesh& standIn)

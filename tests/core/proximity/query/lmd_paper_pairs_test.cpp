@@ -7,6 +7,7 @@
 #include "core/import/mesh_import.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/places.h"
 #include "tests/support/trial_share.h"
 
 namespace nearfit::lmd_paper_pairs_test {
@@ -19,8 +20,7 @@ using test::LmdTally;
 class PaperBodies {
  public:
   TriangleMesh load(const std::string& file, const std::function<TriangleMesh()>& standIn) const {
-    const std::filesystem::path path =
-        std::filesystem::path(NEARFIT_SHARED_DIR) / "models/public/paper_counts" / file;
+    const std::filesystem::path path = test::sharedFolder() / "models/public/paper_counts" / file;
     return std::filesystem::exists(path) ? importMesh(path, {}).mesh : standIn();
   }
   /// Scaled to a bounding box of unit diagonal, as the parts of one assembly would be alike in size.

@@ -39,7 +39,7 @@ void expectExact(const TriangleCorners& a, const TriangleCorners& b, double tole
 
 TEST(TriangleDistance, RandomTrianglesHaveTheExactDistance) {
   std::mt19937_64 random(1);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 1000 / static_cast<int>(test::kTrialShare); ++i) {
     const glm::dvec3 away = 2.0 * uniform(random) * randomPoint(random);
     expectExact({randomPoint(random), randomPoint(random), randomPoint(random)},
                 {away + randomPoint(random), away + randomPoint(random), away + randomPoint(random)}, 1e-14);
@@ -74,7 +74,7 @@ TEST(TriangleDistance, WhatIsSurelyBeyondIsBeyond) {
 TEST(TriangleDistance, SliversParallelSidesAndCommonCornersHaveTheExactDistance) {
   std::mt19937_64 random(2);
   for (const double thin : {1e-3, 1e-6, 1e-9, 1e-12}) {
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 300 / static_cast<int>(test::kTrialShare); ++i) {
       const glm::dvec3 along = randomPoint(random), from = randomPoint(random);
       const double share = 0.5 + 0.6 * uniform(random);
       const TriangleCorners a{from, from + along, from + share * along + thin * randomPoint(random)};

@@ -21,7 +21,7 @@ namespace {
 using test::BodyPair;
 
 constexpr double kCutoff = 0.15;
-constexpr std::size_t kTicks = 400;
+constexpr std::size_t kTicks = 400 / test::kTrialShare + 50;
 
 void expectSame(const std::vector<Lmd>& a, const std::vector<Lmd>& b, std::size_t tick) {
   ASSERT_EQ(a.size(), b.size()) << tick;

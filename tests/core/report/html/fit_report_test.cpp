@@ -22,6 +22,7 @@
 #include "tests/support/png_picture.h"
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/trial_share.h"
 
 namespace nearfit::fit_report_test {
 namespace {
@@ -46,6 +47,9 @@ Scene boxes() {
   scene.add(box("Side", {1.2, 0, -0.2}));
   return scene;
 }
+
+/// How many findings have pictures in tests of many; drawing them takes most of these tests' time.
+constexpr std::size_t kPictured = kDefaultPicturedFindings / test::kTrialShare;
 
 FitReportRequest requestOf(const Scene& scene, double threshold) {
   FitReportRequest request = fitReportRequest(scene, "/tmp/pump.nearfit", std::string(64, 'a'), threshold);
@@ -242,22 +246,23 @@ TEST(FitReport, APageOfManyFindingsIsBoundedAndSaysWhatItLeavesOut) {
   for (int i = 0; i < static_cast<int>(kMaxFindingRows) + 5; ++i)
     parts.push_back(test::partOf(geometry, "Box", {glm::dquat(1, 0, 0, 0), glm::dvec3(1.125 * i, 0, 0)}));
   scene.addAll(parts);
-  const FitReportRequest request = requestOf(scene, 0.25);
+  FitReportRequest request = requestOf(scene, 0.25);
+  EXPECT_EQ(request.maxPictured, kDefaultPicturedFindings);
+  request.maxPictured = kPictured;
   const std::string text = fitReportPage(request, makeFitReport(request));
   EXPECT_LT(text.size(), 8U << 20U);
   const test::HtmlElement page = test::htmlDocument(text);
   EXPECT_EQ(rowsOf(page, "pairs").size(), kMaxFindingRows);
   EXPECT_THAT(textOfSection(page, "pairs"), HasSubstr("4 more pairs are left out of this page."));
   EXPECT_THAT(textOfSection(page, "findings"),
-              HasSubstr(fmt::format("{} more findings are left out",
-                                    kMaxFindingRows + 4 - kDefaultPicturedFindings)));
-  EXPECT_LE(test::elementsOf(page, "img").size(), 4 + 2 * kDefaultPicturedFindings);
+              HasSubstr(fmt::format("{} more findings are left out", kMaxFindingRows + 4 - kPictured)));
+  EXPECT_LE(test::elementsOf(page, "img").size(), 4 + 2 * kPictured);
 }
 
 TEST(FitReport, AsManyFindingsHavePicturesAsAreAskedFor) {
   Scene scene;
   const PartGeometryPtr geometry = test::geometryOf(test::boxMesh(glm::dvec3(1.0)));
-  constexpr int kBoxes = static_cast<int>(kDefaultPicturedFindings) + 3;
+  constexpr int kBoxes = static_cast<int>(kPictured) + 3;
   for (int i = 0; i < kBoxes; ++i)
     scene.add(test::partOf(geometry, "Box", {glm::dquat(1, 0, 0, 0), glm::dvec3(1.125 * i, 0, 0)}));
   FitReportRequest request = requestOf(scene, 0.25);
@@ -270,7 +275,7 @@ TEST(FitReport, AsManyFindingsHavePicturesAsAreAskedFor) {
               sections.size() == kBoxes - 1U);
     return sections.size();
   };
-  EXPECT_EQ(pictured(kDefaultPicturedFindings), kDefaultPicturedFindings);
+  EXPECT_EQ(pictured(kPictured), kPictured);
   EXPECT_EQ(pictured(2), 2U);
   EXPECT_EQ(pictured(500), kBoxes - 1U);
   EXPECT_EQ(pictured(0), kBoxes - 1U) << "each";
