@@ -1,3 +1,6 @@
+import os
+import shutil
+
 import numpy as np
 import pytest
 
@@ -69,6 +72,24 @@ def test_parts_have_names_poses_and_meshes():
     assert np.array_equal(scene.pose("Box"), np.eye(4))
     scene.remove("Box")
     assert len(scene) == 1
+
+
+def test_a_file_name_that_is_not_utf8_is_told_and_kept(tmp_path):
+    scene = nearfit.Scene()
+    scene.add(nearfit.Mesh(*octahedron(0.015)), "Tip")
+    nearfit.export(scene, tmp_path / "tip.stl", unit="mm")
+    odd = os.path.join(tmp_path, os.fsdecode(b"\xff\xc3\xa9.stl"))
+    with pytest.raises(nearfit.Error) as error:
+        nearfit.read_mesh(odd)
+    assert odd in str(error.value)
+    shutil.copy(tmp_path / "tip.stl", odd)
+    mesh = nearfit.read_mesh(odd)
+    assert isinstance(mesh.file, str) and mesh.file == odd
+    # In a name that is UTF-8 nothing is replaced.
+    fine = str(tmp_path / "größe.stl")
+    with pytest.raises(nearfit.Error) as error:
+        nearfit.read_mesh(fine)
+    assert fine in str(error.value)
 
 
 def test_errors_name_parts_and_say_what_to_do():
