@@ -1,3 +1,4 @@
+import os
 import signal
 import threading
 import time
@@ -166,6 +167,43 @@ def test_answers_follow_changes_of_the_scene():
     scene.show("Block")
     scene.set_pose("Tip", (1, 1, 1, 1, 0, 0, 0))
     assert nearfit.distance(scene, "Tip", up)[0] == pytest.approx(0.02, rel=1e-9)
+
+
+def memory():
+    """Bytes that the process has in memory."""
+    with open("/proc/self/statm") as numbers:
+        return int(numbers.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_asking_about_each_part_keeps_memory_bounded():
+    scene, tip = nearfit.Scene(), nearfit.Mesh(*octahedron(0.5))
+    for i in range(32):
+        scene.add(tip, f"P{i}", pose=(3 * i, 0, 0, 1, 0, 0, 0))
+    before, expected = None, [10.0 - 2 * 0.5]
+    for i, name in enumerate(scene.parts):
+        # Above a neighbour: corner over corner.
+        above = (3 * (i + 1 if i < 31 else 30), 0, 10, 1, 0, 0, 0)
+        assert nearfit.distance(scene, name, above, threads=1) == pytest.approx(expected, rel=1e-12)
+        if i == 11:
+            before = memory()
+    # What a part's queries hold is some 20 MB: of these twenty it was 400 MB.
+    assert memory() - before < 150e6
+
+
+def test_queries_of_many_parts_by_turns_are_those_of_each_alone():
+    def made():
+        scene, tip = nearfit.Scene(), nearfit.Mesh(*octahedron(0.5))
+        for i in range(8):
+            scene.add(tip, f"P{i}", pose=(1.5 * i, 0.1 * i, 0, 1, 0, 0, 0))
+        return scene
+
+    rows = random_rows(5, 15, 3.0, away=0.5)
+    alone = {f"P{i}": nearfit.lmds(made(), f"P{i}", rows, 2.0) for i in range(8)}
+    scene = made()
+    for i in np.random.default_rng(16).integers(0, 8, 60):
+        found = nearfit.lmds(scene, f"P{i}", rows, 2.0)
+        assert same(found, alone[f"P{i}"])
+        assert found.part_names == [f"P{k}" for k in range(8) if k != i]
 
 
 def test_overlap_is_exact_where_bodies_touch():
