@@ -277,6 +277,19 @@ def test_parts_of_one_mesh_are_packed_once(monkeypatch):
     assert len(blobs) == 5 and len({mesh for _, mesh, *_ in inputs.spec["scene"]}) == 5
 
 
+def test_making_a_sweep_ready_asks_no_query(monkeypatch):
+    # A query builds the hierarchies of the whole scene in the caller.
+    def asked(*_, **__):
+        raise AssertionError("a query was asked")
+
+    scene = grid_scene(6)
+    scene.show("P4", False)
+    for name in ("lmds", "distance", "overlap", "wrench", "clearance"):
+        monkeypatch.setattr(nearfit, name, asked)
+    inputs = _sweep._Inputs(scene, ["P0"], random_poses(3), None, None, 1, 0, ["overlap"], CUTOFF, THRESHOLD)
+    assert [(name, is_visible) for name, *_, is_visible in inputs.spec["scene"]] == [(f"P{i}", i != 4) for i in range(6)]
+
+
 class Stop(Exception):
     pass
 
