@@ -2,8 +2,8 @@
 
 #include <memory>
 #include <string>
-#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <nanobind/nanobind.h>
 
@@ -30,18 +30,29 @@ class HeldScene {
   const Scene& scene() const noexcept { return scene_; }
   /// Replaces the scene, and forgets what was kept.
   void set(Scene scene);
+  /// Adds a part, forgets what was kept, and returns the part as the scene has it. Throws UsageError.
+  const Part& add(Part added);
+  /// Removes a part, and forgets what was kept. Throws UsageError.
+  void remove(const std::string& name);
+  /// Shows or hides a part, and forgets what was kept. Throws UsageError.
+  void show(const std::string& name, bool isVisible);
   /// Moves a part, and forgets what was kept for others. Throws UsageError.
   void setPose(const std::string& name, const RigidTransform& worldFromPart);
 
   /// The part of that name. Throws UsageError if there is none.
   const Part& part(const std::string& name) const;
-  /// Queries of the part of that name, made when first needed; without the interpreter's lock meanwhile. Throws UsageError
-  /// if there is no such part.
+  /// Queries of the part of that name, made unless they are kept; without the interpreter's lock meanwhile. Those of the
+  /// parts last asked about are kept. Throws UsageError if there is no such part.
   std::shared_ptr<PartQueries> queries(const std::string& name);
 
  private:
+  struct KeptQueries {
+    std::string part;
+    std::shared_ptr<PartQueries> queries;
+  };
+
   Scene scene_;
-  std::unordered_map<std::string, std::shared_ptr<PartQueries>> queries_;
+  std::vector<KeptQueries> kept_;  ///< The last ones asked for first.
 };
 
 void bindMesh(nb::module_& module);

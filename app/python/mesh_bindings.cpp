@@ -90,6 +90,15 @@ Vector centreOf(const Mesh& mesh) {
   return arrayOf<Vector>(std::vector<double>{centre.x, centre.y, centre.z}, {3});
 }
 
+/// As os.fsdecode() gives it: a path need not be UTF-8.
+nb::str fileOf(const Mesh& mesh) {
+  const std::string& path = mesh.geometry->file.native();
+  auto text =
+      nb::steal<nb::str>(PyUnicode_DecodeFSDefaultAndSize(path.data(), static_cast<Py_ssize_t>(path.size())));
+  if (!text.is_valid()) throw nb::python_error();
+  return text;
+}
+
 std::string meshText(const Mesh& mesh) {
   const TriangleMesh& own = mesh.geometry->mesh;
   return fmt::format("<nearfit.Mesh of {} vertices and {} triangles>", own.vertices().size(),
@@ -111,9 +120,8 @@ void bindMesh(nb::module_& module) {
       .def_prop_ro(
           "fingerprint", [](const Mesh& mesh) { return meshSha256(mesh.geometry->mesh); },
           "SHA-256 of vertices and triangles as bits, 64 hexadecimal digits: equal for equal meshes.")
-      .def_prop_ro(
-          "file", [](const Mesh& mesh) { return mesh.geometry->file.string(); },
-          "The file that it was read from; empty if it was built.")
+      .def_prop_ro("file", &fileOf,
+                   "The file that it was read from, as os.fsdecode() has it; empty if it was built.")
       .def_prop_ro(
           "warnings", [](const Mesh& mesh) { return mesh.geometry->report.warnings; },
           "A sentence for each defect that was found on reading or building.")

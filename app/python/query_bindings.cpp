@@ -21,7 +21,7 @@ namespace {
 
 using namespace nb::literals;
 
-/// Calls of fewer poses are not interrupted: they end soon, and asking takes time.
+/// Calls of fewer poses are not interrupted unless a pose may take long: they end soon, and asking takes time.
 constexpr std::size_t kInterruptiblePoses = 32;
 
 /// Minima at poses, as Python holds them.
@@ -90,7 +90,7 @@ auto ask(HeldScene& scene, const std::string& part, const ArrayLike& where, Batc
          const Ask& call) {
   const std::shared_ptr<PartQueries> queries = scene.queries(part);
   const std::vector<RigidTransform> poses = posesOf(where);
-  if (poses.size() < kInterruptiblePoses) {
+  if (poses.size() < kInterruptiblePoses && !queries->arePosesSlow()) {
     const nb::gil_scoped_release unlocked;
     return call(*queries, std::span(poses), options);
   }

@@ -41,32 +41,14 @@ void saveScene(HeldScene& held, const std::filesystem::path& file) {
 
 std::string addPart(HeldScene& held, const Mesh& mesh, const std::optional<std::string>& name,
                     const std::optional<ArrayLike>& pose, double density, bool isVisible) {
-  Scene scene = held.scene();
   Part part;
   part.name = name.value_or(mesh.geometry->file.empty() ? "Part" : mesh.geometry->file.stem().string());
   part.geometry = mesh.geometry;
-  part.colour = scene.nextColour();
+  part.colour = held.scene().nextColour();
   part.density = density;
   part.isVisible = isVisible;
   if (pose) part.worldFromPart = poseOf(*pose);
-  const PartId id = scene.add(std::move(part));
-  held.set(std::move(scene));
-  return held.scene().get(id).name;
-}
-
-void removePart(HeldScene& held, const std::string& name) {
-  const PartId id = held.part(name).id;
-  Scene scene = held.scene();
-  scene.remove(id);
-  held.set(std::move(scene));
-}
-
-void showPart(HeldScene& held, const std::string& name, bool isVisible) {
-  Part part = held.part(name);
-  part.isVisible = isVisible;
-  Scene scene = held.scene();
-  scene.replace(std::move(part));
-  held.set(std::move(scene));
+  return held.add(std::move(part)).name;
 }
 
 std::vector<std::string> partNames(const HeldScene& held) {
@@ -113,9 +95,13 @@ void bindScene(nb::module_& module) {
            "mesh may be added again; parts then share it.\n\n"
            "pose: (4, 4) world from part, or (7,) tx ty tz [m] qw qx qy qz; default: the origin. density: "
            "[kg/m^3].")
-      .def("remove", &removePart, "name"_a, "Removes a part.")
-      .def("show", &showPart, "name"_a, "visible"_a = true,
+      .def("remove", &HeldScene::remove, "name"_a, "Removes a part.")
+      .def("show", &HeldScene::show, "name"_a, "visible"_a = true,
            "Shows or hides a part: hidden ones are in nobody's way.")
+      .def(
+          "is_visible",
+          [](const HeldScene& held, const std::string& name) { return held.part(name).isVisible; }, "name"_a,
+          "False if the part is hidden.")
       .def_prop_ro("parts", &partNames, "Names of the parts, oldest first.")
       .def(
           "pose",

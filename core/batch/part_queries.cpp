@@ -24,6 +24,9 @@ constexpr std::size_t kStretch = 16;
 /// Poses that are followed in a row. Fixed, so that results do not depend on the number of threads; a list serves
 /// some tens of poses.
 constexpr std::size_t kTrackedStretch = 256;
+/// Triangles of all parts from which a pose may take long: some ten milliseconds where their surfaces face each other all
+/// over, next to which a report of progress is nothing.
+constexpr std::size_t kSlowTriangles = 20'000;
 /// Share of all lengths involved that rounding may take from the distance of two spheres; thousands of roundings.
 constexpr double kSphereRounding = 1e-12;
 
@@ -72,6 +75,10 @@ PartQueries::PartQueries(const Scene& scene, PartId part, const ProgressCallback
     geometries.push_back(other->geometry);
   }
   names_ = std::make_shared<const std::vector<std::string>>(std::move(names));
+  std::size_t triangles = 0;
+  for (const PartGeometryPtr& geometry : geometries)
+    triangles += geometry->mesh.triangles().size();
+  arePosesSlow_ = triangles >= kSlowTriangles;
   prepareHierarchies(geometries, progress);
   constexpr double kHalf = 0.5;
   partCentre_ = part_->tree().centre();
@@ -172,14 +179,18 @@ template <class Work>
 void PartQueries::forStretches(std::size_t count, const BatchOptions& options, const Work& work) {
   const std::size_t length = options.isTracked ? kTrackedStretch : kStretch;
   const std::size_t stretches = (count + length - 1) / length;
-  SharedProgress progress(options.progress, std::max(1.0, static_cast<double>(stretches)));
+  SharedProgress progress(options.progress, std::max(1.0, static_cast<double>(count)));
   std::atomic<std::size_t> next{0};
   const auto run = [&](std::size_t) {
     spaces_.with([&](Space& space) {
       for (std::size_t i = next++; i < stretches; i = next++) {
         FollowedPairs followed(options.isTracked ? others_.size() : 0);
-        work(i * length, std::min(count, (i + 1) * length), space, options.isTracked ? &followed : nullptr);
-        progress.add(1.0);
+        const std::size_t last = std::min(count, (i + 1) * length), step = arePosesSlow_ ? 1 : length;
+        for (std::size_t begin = i * length; begin < last; begin += step) {
+          const std::size_t end = std::min(last, begin + step);
+          work(begin, end, space, options.isTracked ? &followed : nullptr);
+          progress.add(static_cast<double>(end - begin));
+        }
       }
     });
   };

@@ -49,6 +49,8 @@ class PartQueries {
   const std::vector<std::string>& otherNames() const noexcept { return *names_; }
   /// The same, for results that outlive this.
   std::shared_ptr<const std::vector<std::string>> sharedNames() const noexcept { return names_; }
+  /// True if the meshes are so large that a pose may take long. Progress is then reported after each pose, else after some.
+  bool arePosesSlow() const noexcept { return arePosesSlow_; }
 
   /// All minima within the cutoff.
   /// @param cutoff  [m]; finite, > 0.
@@ -107,7 +109,8 @@ class PartQueries {
   bool overlapsAt(const RigidTransform& pose) const;
   Wrench wrenchOf(std::size_t index, const RigidTransform& pose, const SpringParameters& springs,
                   bool isWhole, Space& space) const;
-  /// Calls work(begin, end, space, followed) for stretches of `count` poses, on several threads.
+  /// Calls work(begin, end, space, followed) for stretches of `count` poses or parts of them, on several threads. Those of
+  /// one stretch come in order, in one thread.
   template <class Work>
   void forStretches(std::size_t count, const BatchOptions& options, const Work& work);
 
@@ -117,6 +120,7 @@ class PartQueries {
   double partRadius_ = 0.0;     ///< [m]
   std::vector<Other> others_;
   std::shared_ptr<const std::vector<std::string>> names_;
+  bool arePosesSlow_ = false;
   WorkSpaces<Space> spaces_;
 };
 

@@ -21,6 +21,9 @@ FIRST_BATCH = 16
 MAX_BATCH = 4096
 # A batch that takes less of the piece's time than this can be doubled without being late.
 BATCH_SHARE = 1 / 20
+# Minima are searched up to so many thresholds: what lies just beyond the threshold decides which minima below it are one flat
+# region. Surfaces of a region deviate from parallel by a millionth of their size (kFlatTolerance), so twice is ample.
+THRESHOLD_REACH = 2.0
 # A piece's columns, names included, have to fit into memory.
 MAX_PIECE_ROWS = 1 << 20
 # Names stand in each row: so many of this many bytes are less than the 2 GiB of a column of text. Part names are shorter.
@@ -201,7 +204,7 @@ class Store:
             with self._lock:
                 self._scenes[thread] = kept
         if kept["part"] != part:
-            # Moving a part makes a scene forget what it holds for queries of others, which would grow with each part.
+            # Moving a part makes a scene forget what it keeps for queries of others, some 20 MB each: nobody asks for them again.
             kept["scene"].set_pose(part, kept["rows"][part])
             kept["part"] = part
         return kept["scene"]
@@ -236,7 +239,9 @@ def measure(scene, part, poses, spec):
         columns["distance"] = np.asarray(nearfit.distance(scene, part, poses, cutoff=spec["cutoff"], threads=1),
                                          dtype=float)
     if "minima" in spec["measures"]:
-        found = nearfit.lmds(scene, part, poses, spec["cutoff"], threads=1)
+        # No minimum is nearer than zero; but what is asked has to be more.
+        within = min(spec["cutoff"], THRESHOLD_REACH * spec["threshold"]) or spec["cutoff"]
+        found = nearfit.lmds(scene, part, poses, within, threads=1)
         # Counts of minima below the threshold up to each place; differences at the offsets are those of poses.
         below = np.concatenate(([0], np.cumsum(np.asarray(found.distances) < spec["threshold"])))
         columns["minima"] = np.diff(below[np.asarray(found.offsets)]).astype(np.int32)

@@ -141,19 +141,6 @@ def _poses_array(poses, where):
     return poses
 
 
-def _visible(scene):
-    """{part: True where queries are against it}."""
-    import nearfit
-
-    names = list(scene.parts)
-    if len(names) < 2:
-        return dict.fromkeys(names, True)
-    # Queries of two parts name all others that are visible, but themselves.
-    here = np.eye(4)[None]
-    seen = {other for name in names[:2] for other in nearfit.lmds(scene, name, here, 1e-9, threads=1).part_names}
-    return {name: name in seen for name in names}
-
-
 def _names(parts):
     return [parts] if isinstance(parts, str) else list(parts)
 
@@ -194,11 +181,11 @@ class _Inputs:
         self._check_parts("tolerances", tolerances, there)
         if not tolerances and draws != 1:
             _fail("draws: without tolerances all draws are alike; give tolerances, or leave draws out")
-        arrays, visible = self._poses(poses, parts), _visible(scene)
+        arrays = self._poses(poses, parts)
         self.spec = {
             "nearfit": nearfit.__version__, "parts": parts, "count": len(arrays[0]), "poses": [self._add_poses(a) for a in arrays],
             "scene": [[name, self._add_mesh(scene.mesh(name)), np.asarray(scene.pose_row(name), float).ravel().tolist(),
-                       visible[name]] for name in there],
+                       scene.is_visible(name)] for name in there],
             "variants": self._variants(variants, there), "tolerances": tolerances, "draws": _count("draws", draws),
             "seed": _count("seed", seed, 0), "measures": measures, "cutoff": cutoff, "threshold": threshold}
         self._meshes.clear()

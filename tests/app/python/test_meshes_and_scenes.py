@@ -1,3 +1,6 @@
+import os
+import shutil
+
 import numpy as np
 import pytest
 
@@ -69,6 +72,80 @@ def test_parts_have_names_poses_and_meshes():
     assert np.array_equal(scene.pose("Box"), np.eye(4))
     scene.remove("Box")
     assert len(scene) == 1
+
+
+def test_a_scene_says_which_parts_are_visible(tmp_path):
+    scene = nearfit.Scene()
+    mesh = nearfit.Mesh(*box((1, 1, 1)))
+    scene.add(mesh, "Shown")
+    scene.add(mesh, "Hidden", visible=False)
+    assert scene.is_visible("Shown") is True and scene.is_visible("Hidden") is False
+    scene.show("Hidden")
+    scene.show("Shown", False)
+    assert not scene.is_visible("Shown") and scene.is_visible("Hidden")
+    scene.save(tmp_path / "fit.nearfit")
+    opened = nearfit.Scene.open(tmp_path / "fit.nearfit")
+    assert [opened.is_visible(name) for name in ("Shown", "Hidden")] == [False, True]
+    with pytest.raises(nearfit.Error, match='there is no part "Lid"'):
+        scene.is_visible("Lid")
+
+
+def test_a_refused_change_leaves_a_scene_as_it_is():
+    scene = nearfit.Scene()
+    mesh = nearfit.Mesh(*box((1, 1, 1)))
+    for i in range(5):
+        scene.add(mesh, f"P{i}", pose=(3 * i, 0, 0, 1, 0, 0, 0), visible=i != 3)
+    row = (0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0)
+    state = lambda: ([(name, scene.is_visible(name), scene.pose_row(name).tolist()) for name in scene.parts],
+                     nearfit.distance(scene, "P4", row).tolist())
+    before = state()
+    assert before[1] == pytest.approx([1.0], abs=1e-12)
+    for change in (lambda: scene.add(mesh, ""), lambda: scene.add(mesh, "P5", density=-1.0),
+                   lambda: scene.add(mesh, "P5", pose=2 * np.eye(4)), lambda: scene.remove("Lid"), lambda: scene.show("Lid")):
+        with pytest.raises(nearfit.Error):
+            change()
+        assert state() == before
+    # And one that is taken is seen by the next query.
+    assert scene.add(mesh, "Roof", pose=(0, 0, 3.5, 1, 0, 0, 0)) == "Roof"
+    assert nearfit.distance(scene, "P4", row) == pytest.approx([0.5], abs=1e-12)
+    scene.show("Roof", False)
+    assert nearfit.distance(scene, "P4", row) == pytest.approx([1.0], abs=1e-12)
+    scene.show("Roof")
+    assert nearfit.distance(scene, "P4", row) == pytest.approx([0.5], abs=1e-12)
+    scene.remove("Roof")
+    assert nearfit.distance(scene, "P4", row) == pytest.approx([1.0], abs=1e-12)
+    assert state() == before
+
+
+def test_many_parts_are_added_and_removed_one_by_one():
+    scene = nearfit.Scene()
+    mesh = nearfit.Mesh(*box((1, 1, 1)))
+    names = [scene.add(mesh, f"P{i}", pose=(3 * i, 0, 0, 1, 0, 0, 0), visible=i % 3 > 0) for i in range(600)]
+    assert names == [f"P{i}" for i in range(600)] == scene.parts
+    for i in range(0, 600, 2):
+        scene.remove(f"P{i}")
+    assert scene.parts == [f"P{i}" for i in range(1, 600, 2)]
+    assert all(scene.is_visible(f"P{i}") == (i % 3 > 0) and scene.pose_row(f"P{i}")[0, 0] == 3 * i for i in range(1, 600, 2))
+    # P597 is hidden; P595 and P599 are the next ones, 1.5 m to either side of their faces.
+    assert nearfit.distance(scene, "P1", (3 * 597, 0, 0, 1, 0, 0, 0)) == pytest.approx([5.0], abs=1e-9)
+
+
+def test_a_file_name_that_is_not_utf8_is_told_and_kept(tmp_path):
+    scene = nearfit.Scene()
+    scene.add(nearfit.Mesh(*octahedron(0.015)), "Tip")
+    nearfit.export(scene, tmp_path / "tip.stl", unit="mm")
+    odd = os.path.join(tmp_path, os.fsdecode(b"\xff\xc3\xa9.stl"))
+    with pytest.raises(nearfit.Error) as error:
+        nearfit.read_mesh(odd)
+    assert odd in str(error.value)
+    shutil.copy(tmp_path / "tip.stl", odd)
+    mesh = nearfit.read_mesh(odd)
+    assert isinstance(mesh.file, str) and mesh.file == odd
+    # In a name that is UTF-8 nothing is replaced.
+    fine = str(tmp_path / "größe.stl")
+    with pytest.raises(nearfit.Error) as error:
+        nearfit.read_mesh(fine)
+    assert fine in str(error.value)
 
 
 def test_errors_name_parts_and_say_what_to_do():

@@ -1,3 +1,5 @@
+import functools
+import os
 import signal
 import threading
 import time
@@ -168,6 +170,43 @@ def test_answers_follow_changes_of_the_scene():
     assert nearfit.distance(scene, "Tip", up)[0] == pytest.approx(0.02, rel=1e-9)
 
 
+def memory():
+    """Bytes that the process has in memory."""
+    with open("/proc/self/statm") as numbers:
+        return int(numbers.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_asking_about_each_part_keeps_memory_bounded():
+    scene, tip = nearfit.Scene(), nearfit.Mesh(*octahedron(0.5))
+    for i in range(32):
+        scene.add(tip, f"P{i}", pose=(3 * i, 0, 0, 1, 0, 0, 0))
+    before, expected = None, [10.0 - 2 * 0.5]
+    for i, name in enumerate(scene.parts):
+        # Above a neighbour: corner over corner.
+        above = (3 * (i + 1 if i < 31 else 30), 0, 10, 1, 0, 0, 0)
+        assert nearfit.distance(scene, name, above, threads=1) == pytest.approx(expected, rel=1e-12)
+        if i == 11:
+            before = memory()
+    # What a part's queries hold is some 20 MB: of these twenty it was 400 MB.
+    assert memory() - before < 150e6
+
+
+def test_queries_of_many_parts_by_turns_are_those_of_each_alone():
+    def made():
+        scene, tip = nearfit.Scene(), nearfit.Mesh(*octahedron(0.5))
+        for i in range(8):
+            scene.add(tip, f"P{i}", pose=(1.5 * i, 0.1 * i, 0, 1, 0, 0, 0))
+        return scene
+
+    rows = random_rows(5, 15, 3.0, away=0.5)
+    alone = {f"P{i}": nearfit.lmds(made(), f"P{i}", rows, 2.0) for i in range(8)}
+    scene = made()
+    for i in np.random.default_rng(16).integers(0, 8, 60):
+        found = nearfit.lmds(scene, f"P{i}", rows, 2.0)
+        assert same(found, alone[f"P{i}"])
+        assert found.part_names == [f"P{k}" for k in range(8) if k != i]
+
+
 def test_overlap_is_exact_where_bodies_touch():
     scene = nearfit.Scene()
     cube = nearfit.Mesh(*box((1, 1, 1)))
@@ -242,3 +281,49 @@ def test_an_interrupt_ends_a_batch():
         nearfit.lmds(scene, "Tip", rows, 0.05)
     timer.join()
     assert len(nearfit.lmds(scene, "Tip", rows[:3], 0.05)) == 3
+
+
+def ball(rings, radius, is_hollow=False):
+    """A ball of 4 * rings * (rings - 1) triangles; of a hollow one the surface faces inside."""
+    polar, around = np.pi * np.arange(1, rings) / rings, np.pi * np.arange(2 * rings) / rings
+    corners = np.stack([np.outer(np.sin(polar), np.cos(around)), np.outer(np.sin(polar), np.sin(around)),
+                        np.outer(np.cos(polar), np.ones_like(around))], axis=-1).reshape(-1, 3)
+    vertices = radius * np.vstack([[[0, 0, 1]], corners, [[0, 0, -1]]])
+    at = lambda ring, side: 1 + ring * 2 * rings + side % (2 * rings)
+    faces = []
+    for side in range(2 * rings):
+        faces += [[0, at(0, side), at(0, side + 1)], [len(vertices) - 1, at(rings - 2, side + 1), at(rings - 2, side)]]
+        for ring in range(rings - 2):
+            a, b, c, d = at(ring, side), at(ring + 1, side), at(ring + 1, side + 1), at(ring, side + 1)
+            faces += [[a, b, c], [a, c, d]]
+    return vertices, np.array(faces)[:, ::-1] if is_hollow else np.array(faces)
+
+
+def test_an_interrupt_ends_few_poses_of_large_meshes():
+    outer, inner = ball(80, 1.2), ball(80, 1.0, is_hollow=True)
+    scene = nearfit.Scene()
+    scene.add(nearfit.Mesh(np.vstack([outer[0], inner[0]]), np.vstack([outer[1], inner[1] + len(outer[0])])), "Shell")
+    scene.add(nearfit.Mesh(*ball(81, 0.98)), "Ball", pose=(0, 0, 5, 1, 0, 0, 0))
+    rows = random_rows(31, 17, 1e-3)
+    # Built now: the poses alone are to be interrupted.
+    nearfit.distance(scene, "Ball", rows[:1] + [0, 0, 5, 0, 0, 0, 0])
+    finished, entered = [], threading.Event()
+
+    class Poses:
+        """Looked at within the call."""
+
+        def __array__(self, *_, **__):
+            entered.set()
+            return rows
+
+    def interrupt():
+        entered.wait()
+        signal.raise_signal(signal.SIGINT)
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        # No line of Python runs between the end of a call and that of extend(): a call that ran to its end leaves its result.
+        finished.extend(map(functools.partial(nearfit.lmds, scene, "Ball", threads=1), [Poses()], [0.2]))
+    thread.join()
+    assert finished == []

@@ -227,6 +227,19 @@ def test_a_store_keeps_to_its_bytes_and_takes_nothing_damaged():
     assert np.array_equal(store.get(_pieces.digest(blobs[4])), random_poses(10, 4))
 
 
+def test_bytes_of_a_store_are_those_of_what_it_keeps():
+    blobs = {_pieces.digest(blob): ("poses", blob) for blob in (_pieces.poses_blob(random_poses(n + 1, n)) for n in range(9))}
+    store = _pieces.Store()
+    # Again and again, in another order, with what is there already, and making some of them poses.
+    for i, limit in enumerate((1 << 20, 4000, 1 << 20, 3000, 5000, 2000)):
+        names = np.random.default_rng(i).permutation(list(blobs))[:4]
+        store.put({name: blobs[name] for name in names}, limit)
+        store.get(names[0])
+        kept = set(blobs) - set(store.lacks(list(blobs)))
+        assert kept >= set(names) and store.bytes() == sum(len(blobs[name][1]) for name in kept)
+    assert len(kept) < len(blobs)
+
+
 def test_meshes_that_no_worker_could_keep_are_refused(tmp_path):
     with pytest.raises(nearfit.Error, match="store_bytes"):
         run(grid_scene(3), "P0", random_poses(100), tmp_path / "out", store_bytes=1000)
@@ -275,6 +288,62 @@ def test_parts_of_one_mesh_are_packed_once(monkeypatch):
     monkeypatch.setattr(_pieces, "mesh_blob", counted)
     inputs = _sweep._Inputs(grid_scene(15), ["P0"], random_poses(3), None, None, 1, 0, ["overlap"], CUTOFF, THRESHOLD)
     assert len(blobs) == 5 and len({mesh for _, mesh, *_ in inputs.spec["scene"]}) == 5
+
+
+def test_making_a_sweep_ready_asks_no_query(monkeypatch):
+    # A query builds the hierarchies of the whole scene in the caller.
+    def asked(*_, **__):
+        raise AssertionError("a query was asked")
+
+    scene = grid_scene(6)
+    scene.show("P4", False)
+    for name in ("lmds", "distance", "overlap", "wrench", "clearance"):
+        monkeypatch.setattr(nearfit, name, asked)
+    inputs = _sweep._Inputs(scene, ["P0"], random_poses(3), None, None, 1, 0, ["overlap"], CUTOFF, THRESHOLD)
+    assert [(name, is_visible) for name, *_, is_visible in inputs.spec["scene"]] == [(f"P{i}", i != 4) for i in range(6)]
+
+
+def bowl(rings, sides):
+    """A bowl of 0.2 m walls whose hollow has a radius of 1 m, open above, of many small faces: minima and flat regions."""
+    angles = np.concatenate((np.linspace(0.02, np.pi / 2, rings), np.linspace(np.pi / 2, 0.02, rings)))
+    radii = np.repeat([1.0, 1.2], rings)
+    around = 2 * np.pi * np.arange(sides) / sides
+    corners = np.stack([np.outer(radii * np.sin(angles), np.cos(around)), np.outer(radii * np.sin(angles), np.sin(around)),
+                        np.repeat(-radii * np.cos(angles), sides).reshape(-1, sides)], axis=-1).reshape(-1, 3)
+    faces = []
+    for ring in range(2 * rings):
+        for side in range(sides):
+            a, b = ring * sides + side, ring * sides + (side + 1) % sides
+            c, d = (np.array([a, b]) + sides) % len(corners)
+            faces += [[a, c, b], [b, c, d]]
+    return nearfit.Mesh(corners, faces)
+
+
+def counts_below(scene, part, poses, threshold):
+    """Minima below a threshold of all within the cutoff, counted pose by pose."""
+    found = nearfit.lmds(scene, part, poses, CUTOFF)
+    return [int((found[k].distances < threshold).sum()) for k in range(len(poses))]
+
+
+@pytest.mark.parametrize("threshold", [0.0, 1e-7, 0.02, 0.1, 0.25, CUTOFF])
+def test_minima_are_searched_no_farther_than_their_number_needs(tmp_path, monkeypatch, threshold):
+    scene = grid_scene(9)
+    scene.add(bowl(10, 24), name="Bowl", pose=moved([[3, 3, -2]])[0])
+    # Face over face of P1 at the threshold, to the last bits: a flat region.
+    plates = moved([[3, 0, 1.01 + (threshold or 0.1) * factor] for factor in (0.5, 1 - 1e-12, 1, 1 + 1e-12, 1.5, 2, 2 + 1e-12)])
+    poses = np.concatenate((random_poses(60, 5), plates, moved(np.random.default_rng(6).uniform(-0.3, 0.3, (20, 3)) + [3, 3, -2])))
+    expected = counts_below(scene, "P0", poses, threshold)
+    assert (sum(expected) > 5) == (threshold > 1e-6)
+    reached = []
+
+    def asked(scene, part, poses, cutoff, real=nearfit.lmds, **options):
+        reached.append(cutoff)
+        return real(scene, part, poses, cutoff, **options)
+
+    monkeypatch.setattr(nearfit, "lmds", asked)
+    rows = run(scene, "P0", poses, tmp_path / "out", measures="minima", threshold=threshold).arrays()
+    assert rows["minima"].tolist() == expected
+    assert set(reached) == {min(CUTOFF, 2 * threshold) or CUTOFF}
 
 
 class Stop(Exception):

@@ -185,5 +185,53 @@ TEST(PartQueries, ABatchThatIsCancelledEnds) {
   EXPECT_THROW(queries.minima(posesAround(300), 0.6, options), Cancelled);
 }
 
+TEST(PartQueries, OfLargeMeshesEachPoseIsReported) {
+  // 20,480 triangles each.
+  const PartGeometryPtr ball = test::solidGeometryOf(test::icosphereMesh(1.0, 5));
+  Scene scene;
+  const PartId moving = scene.add(test::partOf(ball, "Moving", at(0, 0, 10)));
+  scene.add(test::partOf(ball, "Fixed"));
+  PartQueries slow(scene, moving);
+  ThreeCubes cubes;
+  PartQueries fast(cubes.scene, cubes.moving);
+  EXPECT_TRUE(slow.arePosesSlow());
+  EXPECT_FALSE(fast.arePosesSlow());
+  std::vector<double> reports;
+  BatchOptions options;
+  options.threads = 1;
+  options.progress = [&reports](double progress) {
+    reports.push_back(progress);
+    return reports.size() < 3;
+  };
+  // All in one stretch, which is reported as a whole where poses take no time.
+  const std::vector<RigidTransform> poses(4, at(0, 0, 10));
+  EXPECT_EQ(fast.distances(poses, 1.0, options).size(), 4U);
+  EXPECT_EQ(reports, std::vector{1.0});
+  reports.clear();
+  EXPECT_THROW(slow.distances(poses, 1.0, options), Cancelled);
+  EXPECT_EQ(reports, (std::vector{0.25, 0.5, 0.75}));
+}
+
+TEST(PartQueries, ReportsOfEachPoseChangeNoNumber) {
+  const PartGeometryPtr ball = test::solidGeometryOf(test::icosphereMesh(1.0, 5));
+  Scene scene;
+  const PartId moving = scene.add(test::partOf(ball, "Moving"));
+  scene.add(test::partOf(test::solidGeometryOf(test::boxMesh({1, 1, 1})), "Fixed"));
+  PartQueries queries(scene, moving);
+  ASSERT_TRUE(queries.arePosesSlow());
+  // More than two stretches. A facet of the ball is nearer to its centre than its corners by 0.2 mm.
+  std::vector<RigidTransform> poses;
+  for (int i = 0; i < 40; ++i)
+    poses.push_back(at(0, 0, 1.75 + 0.125 * i));
+  const std::vector<double> found = queries.distances(poses, 10.0);
+  const MinimaTable minima = queries.minima(poses, 10.0);
+  ASSERT_EQ(minima.poses(), poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double expected = poses[i].translation.z - 1.5;
+    EXPECT_NEAR(found[i], expected, 1e-3) << i;
+    EXPECT_NEAR(minima.distances[static_cast<std::size_t>(minima.offsets[i])], expected, 1e-3) << i;
+  }
+}
+
 }  // namespace
 }  // namespace nearfit::part_queries_test
