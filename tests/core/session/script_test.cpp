@@ -324,6 +324,21 @@ TEST_F(ScriptTest, UndoneBeyondItsStartItStartsThere) {
   expectSameAfterReplay();
 }
 
+TEST_F(ScriptTest, GroupsAreNamedWithTheirNumbersAndOneThatIsNotThereIsRefused) {
+  std::vector<GroupId> groups;
+  for (int i = 0; i < 200; ++i)
+    groups.push_back(session_.group({}, i % 2 == 0 ? "Even" : "Odd"));
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    session_.renameGroup(groups[i], i % 2 == 0 ? "Even" : "Odd");
+  const auto json = commandJson(steps::Ungroup{groups}, session_.scene(), script_);
+  ASSERT_EQ(json.at("groups").size(), groups.size());
+  EXPECT_EQ(json.at("groups").at(1), "Odd");
+  EXPECT_EQ(json.at("groups").at(199).at("name"), "Odd");
+  EXPECT_EQ(json.at("groups").at(199).at("number"), 100);
+  session_.ungroup({groups.front()});
+  EXPECT_THROW(commandJson(steps::Ungroup{{groups.front()}}, session_.scene(), script_), UsageError);
+}
+
 /// The records of the state that redo leads to are older than those of the state before it.
 TEST_F(ScriptTest, RecordsAreThoseOfTheStateThatRedoLeadsTo) {
   fill();
