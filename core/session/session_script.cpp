@@ -72,11 +72,13 @@ void readHead(const std::string& text, const std::filesystem::path& place, Sessi
 }
 
 /// Carries out one line.
-void replayLine(const SessionScript& script, const SessionScript::Line& line, Session& session) {
+/// @param progress  Fraction of the line.
+void replayLine(const SessionScript& script, const SessionScript::Line& line, Session& session,
+                const ProgressCallback& progress) {
   const std::filesystem::path place = scriptPlace(script.file, line.number);
   try {
     const nlohmann::json json = readJsonText(line.text, place, lineLimits());
-    session.apply(readCommand(JsonField(json, place), session.scene(), meshFolder(script.file)));
+    session.apply(readCommand(JsonField(json, place), session.scene(), meshFolder(script.file), progress));
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& e) {
@@ -147,8 +149,10 @@ Scene startOf(const SessionScript& script, const ProgressCallback& progress,
 void replay(const SessionScript& script, Session& session, const ProgressCallback& progress) {
   const auto count = static_cast<double>(script.lines.size());
   for (std::size_t i = 0; i < script.lines.size(); ++i) {
-    if (progress && !progress(static_cast<double>(i) / count)) throw Cancelled();
-    replayLine(script, script.lines[i], session);
+    const ProgressCallback ofLine =
+        stageCallback(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
+    if (!ofLine(0.0)) throw Cancelled();
+    replayLine(script, script.lines[i], session, ofLine);
   }
 }
 

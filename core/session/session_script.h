@@ -46,7 +46,7 @@ Scene startOf(const SessionScript& script, const ProgressCallback& progress = {}
 
 /// Carries out the commands one after the other, each as one undo step. Blocking.
 /// @param session   In the state that the script is meant for.
-/// @param progress  Fraction of the lines.
+/// @param progress  Fraction of the lines; also told within a line that loads meshes.
 /// Throws FileError with file, line, problem and remedy, or Cancelled; the session is then as before that line.
 void replay(const SessionScript& script, Session& session, const ProgressCallback& progress = {});
 

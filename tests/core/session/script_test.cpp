@@ -324,6 +324,38 @@ TEST_F(ScriptTest, UndoneBeyondItsStartItStartsThere) {
   expectSameAfterReplay();
 }
 
+/// A line that loads told nothing until it was done, and could not be stopped.
+TEST_F(ScriptTest, ALineThatLoadsTellsItsProgressAndCanBeStopped) {
+  folder_.write("session.jsonl",
+                scriptHead({}) +
+                    "\n"
+                    R"({"do": "group", "parts": [], "name": "G"})"
+                    "\n"
+                    R"({"do": "add", "files": [{"mesh": "meshes/vise.step", "metresPerUnit": 1, )"
+                    R"("shape": {"key": "pin", "chord": 0.00017, "angle": 0.1}}], "parts": []})"
+                    "\n");
+  const SessionScript script = readScript(script_);
+  std::vector<double> told;
+  const auto replayUntil = [&](std::size_t calls) {
+    told.clear();
+    session_.reset();
+    replay(script, session_, [&](double fraction) {
+      told.push_back(fraction);
+      return told.size() < calls;
+    });
+  };
+  // The third call comes while the second line loads.
+  EXPECT_THROW(replayUntil(3), Cancelled);
+  ASSERT_GE(told.size(), 3U);
+  EXPECT_EQ(told[0], 0.0);
+  EXPECT_EQ(told[1], 0.5);
+  EXPECT_EQ(session_.scene().groups().size(), 1U);
+  replayUntil(1000);
+  EXPECT_TRUE(std::ranges::is_sorted(told));
+  EXPECT_GE(told.front(), 0.0);
+  EXPECT_LE(told.back(), 1.0);
+}
+
 TEST_F(ScriptTest, GroupsAreNamedWithTheirNumbersAndOneThatIsNotThereIsRefused) {
   std::vector<GroupId> groups;
   for (int i = 0; i < 200; ++i)
