@@ -18,6 +18,10 @@ constexpr int kScriptVersion = 1;
 /// Limits on a script: size of the file and of one line [bytes], and number of lines.
 constexpr std::size_t kMaxScriptBytes = 64U << 20U, kMaxScriptLineBytes = 16U << 20U,
                       kMaxScriptLines = 100'000;
+/// Limits that a recording keeps to. Others than those of readScript() are for tests.
+struct ScriptLimits {
+  std::size_t maxBytes = kMaxScriptBytes, maxLineBytes = kMaxScriptLineBytes, maxLines = kMaxScriptLines;
+};
 
 /// A script, its commands not looked at yet.
 struct SessionScript {
