@@ -430,6 +430,18 @@ TEST_F(ScriptTest, ARecordingBeyondTheLimitsIsRefusedAndGoesOn) {
   }
 }
 
+TEST_F(ScriptTest, AFileBeyondTheLimitIsRefused) {
+  folder_.write("session.jsonl", scriptHead({}) + "\n");
+  EXPECT_NO_THROW(readScript(script_));
+  fs::resize_file(script_, kMaxScriptBytes + 1);
+  try {
+    readScript(script_);
+    FAIL() << "it was taken";
+  } catch (const FileError& e) {
+    EXPECT_NE(std::string(e.what()).find("larger than"), std::string::npos) << e.what();
+  }
+}
+
 /// A line that loads told nothing until it was done, and could not be stopped.
 TEST_F(ScriptTest, ALineThatLoadsTellsItsProgressAndCanBeStopped) {
   folder_.write("session.jsonl",
