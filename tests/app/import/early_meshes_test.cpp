@@ -258,6 +258,8 @@ TEST_F(SharedEntities, AreMadeForEachSolidAndOpenShellAnew) {
   ASSERT_EQ(bodies.size(), 3U);
   for (TopExp_Explorer shell(whole, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
     bodies.push_back(shell.Current());
+  for (TopExp_Explorer face(whole, TopAbs_FACE, TopAbs_SHELL); face.More(); face.Next())
+    bodies.push_back(face.Current());
   ASSERT_EQ(bodies.size(), 4U);
   std::map<const void*, std::size_t> owners;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
