@@ -10,6 +10,7 @@
 #include "app/cli/interrupt.h"
 #include "app/cli/output.h"
 #include "app/cli/progress_line.h"
+#include "core/base/progress.h"
 #include "core/files/atomic_write.h"
 #include "core/scene/part_files.h"
 #include "core/scene/scene_file.h"
@@ -28,6 +29,14 @@ constexpr const char* kScriptFooter =
     "it start at its folder. The first line that cannot be carried out ends the replay, and no scene is "
     "written.";
 
+/// Shows the progress on the line, and stops at an interrupt.
+ProgressCallback scriptProgress(ProgressLine& line) {
+  return [&line](double fraction) {
+    line.show(fraction);
+    return !InterruptGuard::isInterrupted();
+  };
+}
+
 void runScript(const ScriptOptions& options) {
   SessionScript script = readScript(options.script);
   if (!options.scene.empty()) script.scene = options.scene;
@@ -36,16 +45,18 @@ void runScript(const ScriptOptions& options) {
   checkTarget(options.out, inputs);
   checkReplaceable(options.out);
   const InterruptGuard guard;
-  ProgressLine line("replaying");
   std::vector<std::filesystem::path> changed;
   Session session;
-  session.reset(startOf(script, {}, &changed));
+  {
+    ProgressLine line("opening");
+    session.reset(startOf(script, scriptProgress(line), &changed));
+  }
   for (const std::filesystem::path& mesh : changed)
     printError(fmt::format("warning: {}: it has changed since the scene was saved", mesh.string()));
-  replay(script, session, [&](double fraction) {
-    line.show(fraction);
-    return !InterruptGuard::isInterrupted();
-  });
+  {
+    ProgressLine line("replaying");
+    replay(script, session, scriptProgress(line));
+  }
   checkTarget(options.out, partFiles(session.scene()));
   session.save(options.out);
 }

@@ -46,10 +46,19 @@ constexpr const char* kSweepFooter =
 
 /// Exits with this where a package is missing; Python itself uses 1 and 2.
 constexpr int kMissingPackage = 77;
+/// Takes the working folder out of the path: a folder named nearfit in it would run as the package. Python has
+/// PYTHONSAFEPATH for that, from 3.11 on.
+constexpr const char* kSafePath =
+    "import sys\n"
+    "if sys.path[:1] == ['']: del sys.path[0]\n";
 constexpr const char* kPackageProbe =
-    "import importlib.util, sys\n"
+    "import importlib.util\n"
     "names = ('nearfit', 'numpy', 'pyarrow', 'distributed')\n"
     "sys.exit(0 if all(importlib.util.find_spec(name) for name in names) else 77)";
+/// The same as -m nearfit.sweep, also for the processes that it starts.
+constexpr const char* kSweepProgram =
+    "import runpy\n"
+    "runpy.run_module('nearfit.sweep', run_name='__main__', alter_sys=True)";
 
 /// Pointers into the texts, with the null at their end that system calls ask for.
 std::vector<char*> sweepPointers(std::vector<std::string>& texts) {
@@ -67,7 +76,7 @@ std::vector<char*> sweepPointers(std::vector<std::string>& texts) {
 }
 
 /// Runs a short program of Python's, without output, and returns its exit code, -1 if a signal ended it.
-int runSilently(const std::string& python, const char* program) {
+int runSilently(const std::string& python, const std::string& program) {
   ::posix_spawn_file_actions_t actions{};
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -88,7 +97,7 @@ int runSilently(const std::string& python, const char* program) {
 
 /// Throws Error if the interpreter does not find what a sweep needs.
 void checkPackages(const std::string& python) {
-  const int code = runSilently(python, kPackageProbe);
+  const int code = runSilently(python, std::string(kSafePath) + kPackageProbe);
   if (code == 0) return;
   if (code == kMissingPackage)
     throw Error(
@@ -123,8 +132,8 @@ std::vector<std::string> sweepArguments(const SweepOptions& options) {
   if (options.draws != 1 && options.tolerances.empty())
     throw UsageError("--draws", "without tolerances all draws are alike", "give --tolerance NAME=D too");
   std::vector<std::string> arguments{options.python,
-                                     "-m",
-                                     "nearfit.sweep",
+                                     "-c",
+                                     std::string(kSafePath) + kSweepProgram,
                                      "--parts=" + options.parts,
                                      "--poses=" + options.poses,
                                      "--threshold=" + metresText("--threshold", options.threshold, true),
@@ -147,7 +156,7 @@ std::vector<std::string> sweepArguments(const SweepOptions& options) {
 /// Becomes the sweep: what it prints, its exit code and the signals sent to it are this program's.
 void runSweep(const SweepOptions& options) {
   std::vector<std::string> arguments = sweepArguments(options);
-  // Otherwise a folder named nearfit in the working folder would run as the package.
+  // For the processes that the sweep starts.
   ::setenv("PYTHONSAFEPATH", "1", 1);
   checkPackages(options.python);
   flushOutput();

@@ -8,6 +8,8 @@
 #include <QTimer>
 #include <QtGlobal>
 #include <exception>
+#include <filesystem>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/session/session_script.h"
@@ -91,8 +93,13 @@ void Application::replayScript(const QString& file) {
   QTimer::singleShot(0, this, [this, file] {
     try {
       const SessionScript script = readScript(ui::toPath(file));
+      std::vector<std::filesystem::path> changed;
       // It is in no file as it is: saving must not replace the scene that the script starts from.
-      if (script.scene) session_.restore(startOf(script), {});
+      if (script.scene) session_.restore(startOf(script, {}, &changed), {});
+      QStringList meshes;
+      for (const std::filesystem::path& mesh : changed)
+        meshes << ui::fromPath(mesh);
+      if (!meshes.isEmpty()) emit window_.document().meshesHaveChanged(meshes);
       replay(script, session_);
       window_.showNote(tr("Replayed %1").arg(ui::shortName(QFileInfo(file).fileName())));
     } catch (const std::exception&) {

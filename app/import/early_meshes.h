@@ -22,11 +22,18 @@ struct Body;
 /// Meshes solids on threads of its own while OpenCASCADE, on one thread, makes those that follow in the file. The result
 /// does not depend on what is meshed here: it is what meshBody() returns later.
 ///
-/// Only solids of one shell and few faces are taken, which share nothing with those before. So finish() waits briefly,
-/// and no two threads write to the same faces.
+/// Only solids of one shell and few faces are taken, so that finish() usually waits briefly. No two threads write to the
+/// same faces, edges or vertices:
+///  - A solid that shares some with one added before it is left out.
+///  - One that is made later shares none with it, even if both name the same shell or face in the file: OpenCASCADE's
+///    StepToTopoDS_Builder keeps what it made in a map of its own for each solid and each model of open shells. Only where
+///    read.step.nonmanifold is on do they share one; then nothing may be added.
+///  - Nothing heals a solid that was added: STEPControl_ActorRead binds it to its entity, where it is found, after its
+///    healing.
+/// Tests hold the OpenCASCADE at hand to this.
 class EarlyMeshes {
  public:
-  /// Max faces of a solid: some tenths of a second on one thread. Larger ones are better meshed by all threads.
+  /// Max faces of a solid: usually some tenths of a second on one thread. Larger ones are better meshed by all threads.
   static constexpr std::size_t kMaxFaces = 150;
   /// Max threads: meshing takes about twice as long as making the solids.
   static constexpr std::size_t kMaxThreads = 3;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <map>
 #include <optional>
@@ -176,17 +177,19 @@ class CommandWriter {
 
   /// The name alone, or with a number where groups share it.
   CommandJson groupJson(GroupId id) {
+    const Group* group = scene_.findGroup(id);
+    if (group == nullptr)
+      throw UsageError(fmt::format("group {}", static_cast<std::uint32_t>(id)), "the scene has no such group",
+                       "choose one that is in the scene");
     if (numbers_.empty()) {
       std::map<std::string, std::size_t> counts;
-      for (const Scene::GroupPtr& group : scene_.groups())
-        numbers_.emplace(group->id, ++counts[group->name]);
+      for (const Scene::GroupPtr& each : scene_.groups())
+        numbers_.emplace(each->id, ++counts[each->name]);
     }
-    outermost(scene_, {{}, {id}});  // Throws if there is no such group.
-    const std::string& name = scene_.findGroup(id)->name;
     const std::size_t number = numbers_.at(id);
-    if (number == 1) return name;
+    if (number == 1) return group->name;
     CommandJson json;
-    json["name"] = name;
+    json["name"] = group->name;
     json["number"] = number;
     return json;
   }

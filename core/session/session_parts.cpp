@@ -52,9 +52,13 @@ std::map<PartId, PartGeometryPtr> byPart(const std::vector<Session::NewGeometry>
 
 void Session::change(const std::vector<PartId>& ids, Step verb, SessionCommand command,
                      const std::function<void(Part&)>& change, const std::function<void(Scene&)>& finish) {
+  // A script may name a part twice. It changes once: a second move would take it away from the others.
+  std::vector<PartId> parts = ids;
+  std::ranges::sort(parts);
+  parts.erase(std::ranges::unique(parts).begin(), parts.end());
   Scene next = scene();
   SceneNodes changed;
-  for (const PartId id : ids) {
+  for (const PartId id : parts) {
     Part part = next.get(id);
     change(part);
     if (isSame(part, *next.find(id))) continue;

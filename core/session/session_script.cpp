@@ -1,6 +1,7 @@
 #include "core/session/session_script.h"
 
 #include <algorithm>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -72,11 +73,13 @@ void readHead(const std::string& text, const std::filesystem::path& place, Sessi
 }
 
 /// Carries out one line.
-void replayLine(const SessionScript& script, const SessionScript::Line& line, Session& session) {
+/// @param progress  Fraction of the line.
+void replayLine(const SessionScript& script, const SessionScript::Line& line, Session& session,
+                const ProgressCallback& progress) {
   const std::filesystem::path place = scriptPlace(script.file, line.number);
   try {
     const nlohmann::json json = readJsonText(line.text, place, lineLimits());
-    session.apply(readCommand(JsonField(json, place), session.scene(), meshFolder(script.file)));
+    session.apply(readCommand(JsonField(json, place), session.scene(), meshFolder(script.file), progress));
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& e) {
@@ -99,11 +102,17 @@ std::string scriptHead(const std::optional<std::filesystem::path>& scene) {
 }
 
 SessionScript readScript(const std::filesystem::path& file) {
-  if (InputFile(file).size() > kMaxScriptBytes) {
+  // Opened once: another file may take its place meanwhile.
+  const InputFile input(file);
+  if (input.size() > kMaxScriptBytes) {
     throw FileError(file.string(), fmt::format("it is larger than {} bytes", kMaxScriptBytes),
                     "check that it is the right file");
   }
-  const std::vector<char> bytes = readWholeFile(file);
+  std::vector<char> bytes(static_cast<std::size_t>(input.size()));
+  if (!input.readAt(0, std::as_writable_bytes(std::span(bytes)))) {
+    throw FileError(file.string(), "it shrank while it was being read",
+                    "try again when no program writes to it");
+  }
   SessionScript script{file, {}, {}};
   std::string_view rest(bytes.data(), bytes.size());
   bool hasHead = false;
@@ -147,8 +156,10 @@ Scene startOf(const SessionScript& script, const ProgressCallback& progress,
 void replay(const SessionScript& script, Session& session, const ProgressCallback& progress) {
   const auto count = static_cast<double>(script.lines.size());
   for (std::size_t i = 0; i < script.lines.size(); ++i) {
-    if (progress && !progress(static_cast<double>(i) / count)) throw Cancelled();
-    replayLine(script, script.lines[i], session);
+    const ProgressCallback ofLine =
+        stageCallback(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
+    if (!ofLine(0.0)) throw Cancelled();
+    replayLine(script, script.lines[i], session, ofLine);
   }
 }
 

@@ -18,6 +18,10 @@ constexpr int kScriptVersion = 1;
 /// Limits on a script: size of the file and of one line [bytes], and number of lines.
 constexpr std::size_t kMaxScriptBytes = 64U << 20U, kMaxScriptLineBytes = 16U << 20U,
                       kMaxScriptLines = 100'000;
+/// Limits that a recording keeps to. Others than those of readScript() are for tests.
+struct ScriptLimits {
+  std::size_t maxBytes = kMaxScriptBytes, maxLineBytes = kMaxScriptLineBytes, maxLines = kMaxScriptLines;
+};
 
 /// A script, its commands not looked at yet.
 struct SessionScript {
@@ -46,7 +50,7 @@ Scene startOf(const SessionScript& script, const ProgressCallback& progress = {}
 
 /// Carries out the commands one after the other, each as one undo step. Blocking.
 /// @param session   In the state that the script is meant for.
-/// @param progress  Fraction of the lines.
+/// @param progress  Fraction of the lines; also told within a line that loads meshes.
 /// Throws FileError with file, line, problem and remedy, or Cancelled; the session is then as before that line.
 void replay(const SessionScript& script, Session& session, const ProgressCallback& progress = {});
 

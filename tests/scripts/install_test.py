@@ -68,6 +68,15 @@ $function
 """
 
 
+def package_of_build():
+    """Files that the package makes in the build, with the times of their last changes."""
+    folder = pathlib.Path(BUILD) / "resources/package"
+    return {str(file.relative_to(folder)): file.stat().st_mtime_ns for file in folder.rglob("*")}
+
+
+BEFORE = package_of_build()
+
+
 def setUpModule():
     HOME.mkdir()
     result = subprocess.run([CMAKE, "--install", BUILD, "--prefix", str(TREE)], capture_output=True, text=True)
@@ -109,6 +118,11 @@ class InstallTree(unittest.TestCase):
 
     def test_the_tree_holds_these_files_and_no_others(self):
         self.assertEqual({str(file.relative_to(TREE)) for file in TREE.rglob("*") if file.is_file()}, FILES)
+
+    def test_installing_leaves_the_build_as_it_is(self):
+        # Who installs may be root, and the files that it made were then root's, which the next build could not replace.
+        self.assertIn("made/debian/changelog", BEFORE)
+        self.assertEqual(package_of_build(), BEFORE)
 
     def test_what_is_loaded_or_run_may_be_changed_by_its_owner_alone(self):
         for folder in ("bin", "lib", "libexec"):

@@ -1,10 +1,18 @@
+#include <csignal>
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/cli/commands.h"
+#include "core/base/error.h"
+#include "core/scene/document_load.h"
 #include "core/scene/scene_file.h"
 #include "tests/app/cli/plate_and_cube.h"
+#include "tests/support/documents.h"
 
 namespace nearfit::test::script_command_test {
 namespace {
@@ -68,6 +76,44 @@ TEST_F(ScriptCommand, WrongUseIsRefused) {
   EXPECT_EQ(runCli({"script", script, "--scene", scene_, "-o", scene_}).exitCode, 2);
   EXPECT_EQ(runCli({"script", path("none.jsonl"), "-o", out_}).exitCode, 1);
   EXPECT_EQ(runCli({"script", script, "-o", folder_.path().string()}).exitCode, 1);
+}
+
+/// The command with these arguments, in this process.
+void runHere(const std::vector<std::string>& arguments) {
+  CLI::App program;
+  cli::addScriptCommand(program);
+  std::vector<const char*> texts{"nearfit-cli"};
+  for (const std::string& each : arguments)
+    texts.push_back(each.c_str());
+  program.parse(static_cast<int>(texts.size()), texts.data());
+}
+
+/// Ctrl+C waited for a whole line, such as a document that loads for minutes, and for the scene to start from.
+TEST_F(ScriptCommand, AnInterruptEndsItWhileADocumentLoads) {
+  const std::string add =
+      R"({"do": "add", "files": [{"mesh": "vise.step", "metresPerUnit": 1, "shape": {"key": "pin", "chord": 0, "angle": 0}}], "parts": [{"name": "Pin", "file": 0}]})"
+      "\n";
+  folder_.write("vise.step", "a vise");
+  {
+    const FakeImporter importer;
+    runHere({"script", write(add), "-o", path("start.nearfit")});
+  }
+  ASSERT_TRUE(fs::exists(path("start.nearfit")));
+  folder_.write("vise.step", "a vise that was exported again");
+  int runs = 0;
+  const ScopedDocumentImporter interrupted(
+      [&runs](const fs::path&, const DocumentOptions&, const ProgressCallback& progress) -> CadDocument {
+        ++runs;
+        std::raise(SIGINT);
+        if (progress && !progress(0.5)) throw Cancelled();
+        throw FileError("vise.step", "it was read to its end", "stop at the interrupt");
+      });
+  EXPECT_THROW(runHere({"script", write(add), "-o", out_}), Cancelled);
+  EXPECT_EQ(runs, 1);
+  const std::string fromStart = write("", R"({"nearfitScript": 1, "scene": "start.nearfit"})");
+  EXPECT_THROW(runHere({"script", fromStart, "-o", out_}), Cancelled);
+  EXPECT_EQ(runs, 2);
+  EXPECT_FALSE(fs::exists(out_));
 }
 
 TEST_F(ScriptCommand, AMeshThatTheScriptReadsIsNotReplaced) {

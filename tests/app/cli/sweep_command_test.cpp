@@ -33,11 +33,19 @@ class SweepCommand : public PlateAndCube {
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
     return file;
   }
-  /// Says yes to the question for packages; then prints its arguments, a line each, and exits with 3.
+  /// Says yes to the question for packages, which is a program without arguments; then prints its arguments behind the
+  /// program, a line each, and exits with 3.
   std::string printer() {
-    return script(
-        "printer",
-        "[ \"$1\" = -c ] && exit 0\nprintf '%s\\n' \"$@\"\necho \"safe $PYTHONSAFEPATH\" >&2\nexit 3\n");
+    return script("printer",
+                  "[ $# = 2 ] && exit 0\n[ \"$1\" = -c ] || exit 4\nshift 2\nprintf '%s\\n' \"$@\"\n"
+                  "echo \"safe $PYTHONSAFEPATH\" >&2\nexit 3\n");
+  }
+  /// A Python package nearfit in a folder, whose sweep prints its arguments behind a word.
+  void package(const std::string& folder, const std::string& word) {
+    std::filesystem::create_directories(folder + "/nearfit");
+    std::ofstream(folder + "/nearfit/__init__.py") << "";
+    std::ofstream(folder + "/nearfit/sweep.py")
+        << "import sys\nif __name__ == '__main__': print('" << word << "', __spec__.name, sys.argv[-1])\n";
   }
 };
 
@@ -47,11 +55,11 @@ TEST_F(SweepCommand, ArgumentsGoToThePackageAsTheyAreAndItsOutputAndExitCodeCome
                                         "--measures", "overlap", "--quiet", "--python", printer()}));
   EXPECT_EQ(result.exitCode, 3);
   EXPECT_EQ(result.err, "safe 1\n");
-  EXPECT_THAT(linesOf(result.out), ElementsAre("-m", "nearfit.sweep", "--parts=Cube,$(touch x) `id`",
-                                               "--poses=" + path("poses.csv"), "--threshold=0.001",
-                                               "--cutoff=0.1", "--out=" + path("out"), "--draws=3",
-                                               "--seed=7", "--part=-a; b", "--tolerance=A=B=0.0005",
-                                               "--measures=overlap", "--workers=2", "--quiet", "--", scene_));
+  EXPECT_THAT(
+      linesOf(result.out),
+      ElementsAre("--parts=Cube,$(touch x) `id`", "--poses=" + path("poses.csv"), "--threshold=0.001",
+                  "--cutoff=0.1", "--out=" + path("out"), "--draws=3", "--seed=7", "--part=-a; b",
+                  "--tolerance=A=B=0.0005", "--measures=overlap", "--workers=2", "--quiet", "--", scene_));
 }
 
 TEST_F(SweepCommand, AnOptionThatIsNotGivenIsLeftToThePackage) {
@@ -75,6 +83,25 @@ TEST_F(SweepCommand, TheRealInterpreterWithoutItsPackagesIsToldToo) {
   const auto result = runCli(arguments({"--parts", "Cube", "--python", bare}));
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_THAT(result.err, HasSubstr("pip install '.[sweep]' in the folder of nearfit's sources"));
+}
+
+TEST_F(SweepCommand, TheWorkingFolderHoldsNoPackages) {
+  package(path("here"), "here");
+  package(path("installed"), "installed");
+  for (const char* name : {"numpy", "pyarrow", "distributed"})
+    std::ofstream(path("installed") + "/" + name + ".py") << "";
+  // Before Python 3.11 there is no PYTHONSAFEPATH.
+  const auto old = [&](const char* name, const std::string& packages) {
+    return script(name, "cd '" + path("here") + "' || exit 9\nunset PYTHONSAFEPATH\nexport PYTHONPATH='" +
+                            packages + "'\nexec python3 -S \"$@\"\n");
+  };
+  const auto found = runCli(arguments({"--parts", "Cube", "--python", old("old", path("installed"))}));
+  EXPECT_EQ(found.exitCode, 0) << found.err;
+  EXPECT_EQ(found.out, "installed nearfit.sweep " + scene_ + "\n");
+  std::filesystem::remove_all(path("installed") + "/nearfit");
+  const auto missing = runCli(arguments({"--parts", "Cube", "--python", old("bare", path("installed"))}));
+  EXPECT_EQ(missing.exitCode, 1);
+  EXPECT_THAT(missing.err, HasSubstr("pip install '.[sweep]' in the folder of nearfit's sources"));
 }
 
 TEST_F(SweepCommand, AProgramThatIsNoInterpreterIsToldSo) {

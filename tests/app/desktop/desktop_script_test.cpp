@@ -40,6 +40,7 @@ class DesktopScriptTest : public QObject {
   void anotherSceneEndsTheRecording();
   void aCancelledQuestionRecordsNothing();
   void aLineThatFailsIsShownAndTheSceneIsAsBeforeIt();
+  void aMeshOfTheStartThatHasChangedIsTold();
 };
 
 void DesktopScriptTest::aRecordedSessionLeadsToTheSameSceneInAWindowAndWithoutOne() {
@@ -122,6 +123,24 @@ void DesktopScriptTest::aLineThatFailsIsShownAndTheSceneIsAsBeforeIt() {
   d.application.replayScript(QString::fromStdString(script.string()));
   QTRY_VERIFY(shown.contains(QStringLiteral("bad.jsonl:3")));
   QCOMPARE(d.session().scene().groups().size(), std::size_t{1});
+}
+
+/// The command line told of it, the window did not.
+void DesktopScriptTest::aMeshOfTheStartThatHasChangedIsTold() {
+  DesktopDriver d;
+  d.addCubes();
+  d.session().save(d.folder.path() / "start.nearfit");
+  const auto script = d.folder.write("session.jsonl",
+                                     "{\"nearfitScript\": 1, \"scene\": \"start.nearfit\"}\n"
+                                     "{\"do\": \"renamePart\", \"part\": \"moving\", \"name\": \"Cube\"}\n");
+  writeOff(d.fixedFile.toStdString(), boxMesh(glm::dvec3(0.05)));
+  DesktopDriver other;
+  other.application.replayScript(QString::fromStdString(script.string()));
+  QTRY_COMPARE(other.session().scene().parts().size(), std::size_t{2});
+  QTRY_VERIFY(other.widget<QWidget>("notice-others") != nullptr);
+  const auto* text = other.widget<QWidget>("notice-others")->findChild<QLabel*>(QStringLiteral("noticeText"));
+  QVERIFY2(text->text().startsWith(QStringLiteral("fixed.off has changed since")), qPrintable(text->text()));
+  QVERIFY(other.session().scene().findByName("Cube") != nullptr);
 }
 
 NEARFIT_QT_SUITE(DesktopScriptTest, runDesktopTest<DesktopScriptTest>)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -19,7 +20,9 @@
 #include <BRep_Builder.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <Message_ProgressRange.hxx>
+#include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TopAbs_ShapeEnum.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Shape.hxx>
 #include <TopoDS_Solid.hxx>
@@ -173,6 +176,17 @@ std::string bytesOf(const CadDocument& document) {
   return bytes;
 }
 
+/// Reads a STEP file in this process. Nothing is meshed early if shapes are named.
+CadDocument readHere(const std::filesystem::path& file, const std::vector<std::string>& onlyShapes = {}) {
+  importer::ImportOptions options;
+  options.file = file;
+  options.onlyShapes = onlyShapes;
+  importer::ImportJob job = importer::openJob(options);
+  job.progress = [](double) {};
+  job.endStage = [](const char*) {};
+  return importer::readStep(job);
+}
+
 TEST(EarlyMeshes, DocumentHasTheSameBytesWithAndWithoutThem) {
   constexpr std::size_t kSolids = 24;
   const test::TemporaryFolder folder;
@@ -206,6 +220,68 @@ TEST(EarlyMeshes, DocumentHasTheSameBytesWithAndWithoutThem) {
     const double volume = std::numbers::pi * radius * radius * 10.0 * kMetresPerMillimetre;
     EXPECT_NEAR(whole.shapes[i].exactVolume, volume, 1e-6 * volume) << i;
   }
+}
+
+/// The two solids of a model file, and entities that share with the first of them: a solid of the same shell, and an open
+/// shell of one of its faces.
+class SharedEntities : public ::testing::Test {
+ protected:
+  SharedEntities() {
+    std::string text = test::readBytes(std::filesystem::path(NEARFIT_SOURCE_DIR) /
+                                       "tests/app/import/models/two_solids.step");
+    const auto replace = [&text](const std::string& before, const std::string& after) {
+      const std::size_t at = text.find(before);
+      ASSERT_NE(at, std::string::npos) << before;
+      text.replace(at, before.size(), after);
+    };
+    replace("(#11,#15,#345)", "(#11,#9001,#15,#9002,#345)");
+    replace("#15 = MANIFOLD_SOLID_BREP('',#16);",
+            "#15 = MANIFOLD_SOLID_BREP('',#16);\n#9001 = MANIFOLD_SOLID_BREP('',#16);\n"
+            "#9002 = SHELL_BASED_SURFACE_MODEL('',(#9003));\n#9003 = OPEN_SHELL('',(#17));");
+    folder_.write("shared.step", text);
+    importer::setUpOcc();
+  }
+
+  test::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "shared.step";
+};
+
+/// Early meshes rest on this: no thread meshes what OpenCASCADE, or another thread, still works on.
+TEST_F(SharedEntities, AreMadeForEachSolidAndOpenShellAnew) {
+  STEPControl_Reader reader;
+  ASSERT_EQ(reader.ReadFile(file_.c_str()), IFSelect_RetDone);
+  reader.TransferRoots();
+  const TopoDS_Shape whole = reader.OneShape();
+  std::vector<TopoDS_Shape> bodies;
+  for (TopExp_Explorer solid(whole, TopAbs_SOLID); solid.More(); solid.Next())
+    bodies.push_back(solid.Current());
+  ASSERT_EQ(bodies.size(), 3U);
+  for (TopExp_Explorer shell(whole, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
+    bodies.push_back(shell.Current());
+  for (TopExp_Explorer face(whole, TopAbs_FACE, TopAbs_SHELL); face.More(); face.Next())
+    bodies.push_back(face.Current());
+  ASSERT_EQ(bodies.size(), 4U);
+  std::map<const void*, std::size_t> owners;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    std::size_t count = 0;
+    for (const TopAbs_ShapeEnum kind : {TopAbs_FACE, TopAbs_EDGE, TopAbs_VERTEX}) {
+      for (TopExp_Explorer each(bodies[i], kind); each.More(); each.Next()) {
+        const auto [owner, isNew] = owners.emplace(each.Current().TShape().get(), i);
+        EXPECT_EQ(owner->second, i) << "kind " << kind;
+        ++count;
+      }
+    }
+    EXPECT_GT(count, 0U);
+  }
+}
+
+TEST_F(SharedEntities, AreMeshedEarlyAsTheyAreLater) {
+  const CadDocument whole = readHere(file_);
+  std::vector<std::string> keys;
+  for (const CadShape& shape : whole.shapes)
+    keys.push_back(shape.key);
+  ASSERT_EQ(keys.size(), 4U);
+  EXPECT_EQ(bytesOf(readHere(file_, keys)), bytesOf(whole));
 }
 
 }  // namespace

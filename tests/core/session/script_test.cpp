@@ -325,6 +325,171 @@ TEST_F(ScriptTest, UndoneBeyondItsStartItStartsThere) {
   expectSameAfterReplay();
 }
 
+std::size_t countOf(const std::vector<ScriptJson>& recorded, const char* name) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(recorded, [&](const ScriptJson& line) { return line.at("do") == name; }));
+}
+
+/// Each check left a line of all records: ten checks of a large scene made a script too large to be read.
+TEST_F(ScriptTest, OfManyChecksTheScriptKeepsWhatLaterLinesRead) {
+  fill();
+  recorder_.start(script_);
+  const PartPair pair{id("Block"), id("Loose")};
+  const auto check = [&](double distance) {
+    session_.setPairRecords({{pair, PairVerdict::Near, distance, {}, {}, {}}});
+  };
+  for (int i = 1; i <= 5; ++i) {
+    session_.movePart(id("Block"), {{1, 0, 0, 0}, {0, 0, 1.0 * i}});
+    check(0.1 * i);
+  }
+  session_.renamePart(id("Pin"), "Bolt");
+  // It reads the records of the fifth check.
+  session_.setFindingState({pair}, FindingState::Accepted, "so");
+  for (int i = 6; i <= 9; ++i) {
+    session_.movePart(id("Block"), {{1, 0, 0, 0}, {0, 0, 1.0 * i}});
+    check(0.1 * i);
+  }
+  recorder_.stop();
+  const std::vector<ScriptJson> recorded = lines();
+  EXPECT_EQ(countOf(recorded, "move"), 9U);
+  ASSERT_EQ(countOf(recorded, "records"), 2U);
+  EXPECT_EQ(recorded[5].at("do"), "records");
+  EXPECT_EQ(recorded[5].at("records").at(0).at("distance"), 0.1 * 5);
+  EXPECT_EQ(recorded[7].at("do"), "finding");
+  EXPECT_EQ(recorded.back().at("records").at(0).at("distance"), 0.1 * 9);
+  expectSameAfterReplay();
+}
+
+TEST_F(ScriptTest, RecordsThatWereLeftOutComeBackWhenTheLaterOnesAreUndone) {
+  fill();
+  recorder_.start(script_);
+  const PartPair pair{id("Block"), id("Loose")};
+  session_.renamePart(id("Pin"), "Bolt");
+  session_.setPairRecords({{pair, PairVerdict::Near, 0.25, {}, {}, {}}});
+  session_.renamePart(id("Bolt"), "Screw");
+  session_.renamePart(id("Screw"), "Nail");
+  session_.setPairRecords({{pair, PairVerdict::Near, 0.5, {}, {}, {}}});
+  session_.undo();
+  session_.undo();
+  session_.redo();
+  session_.undo();
+  session_.renamePart(id("Bolt"), "Rivet");
+  session_.setFindingState({pair}, FindingState::Accepted, "so");
+  recorder_.stop();
+  EXPECT_EQ(countOf(lines(), "records"), 1U);
+  expectSameAfterReplay();
+}
+
+/// At the start too, which has no command.
+TEST_F(ScriptTest, RecordsOfTheStartThatWereLeftOutComeBack) {
+  fill();
+  recorder_.start(script_);
+  session_.setPairRecords({{{id("Block"), id("Loose")}, PairVerdict::Near, 0.25, {}, {}, {}}});
+  session_.renamePart(id("Pin"), "Bolt");
+  session_.setPairRecords({});
+  session_.undo();
+  recorder_.stop();
+  ASSERT_EQ(session_.scene().pairRecords().size(), 1U);
+  EXPECT_EQ(countOf(lines(), "records"), 1U);
+  expectSameAfterReplay();
+}
+
+/// What is recorded can be read: where it could not, it is refused before anything is written, and nothing is lost.
+TEST_F(ScriptTest, ARecordingBeyondTheLimitsIsRefusedAndGoesOn) {
+  const std::vector<std::pair<ScriptLimits, const char*>> limits = {
+      {ScriptLimits{.maxLines = 3}, "3 lines"},
+      {ScriptLimits{.maxBytes = 200}, "200 bytes"},
+      {ScriptLimits{.maxLineBytes = 60}, "60 bytes in a line"}};
+  for (const auto& [limit, words] : limits) {
+    SCOPED_TRACE(words);
+    session_.reset();
+    session_.addPart(block(), "Block");
+    fs::remove(ScriptRecorder::startFileOf(script_));
+    ScriptRecorder recorder(session_, limit);
+    const Subscription changes =
+        session_.onChange(SceneEvents::Stage::Panels, [&recorder] { recorder.follow(); });
+    recorder.start(script_);
+    session_.renamePart(id("Block"), "Base");
+    session_.renamePart(id("Base"), "Bed");
+    session_.renamePart(id("Bed"), "A name that makes the third line longer than the first two of them");
+    try {
+      recorder.stop();
+      ADD_FAILURE() << "it was written";
+    } catch (const UsageError& e) {
+      EXPECT_EQ(e.where(), script_.string());
+      EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+      EXPECT_FALSE(e.remedy().empty());
+    }
+    EXPECT_TRUE(recorder.isRecording());
+    EXPECT_EQ(lines().size(), 0U);
+    EXPECT_FALSE(fs::exists(ScriptRecorder::startFileOf(script_)));
+    // The remedy that it names.
+    session_.undo();
+    recorder.stop();
+    EXPECT_EQ(lines().size(), 2U);
+    expectSameAfterReplay();
+  }
+}
+
+TEST_F(ScriptTest, AFileBeyondTheLimitIsRefused) {
+  folder_.write("session.jsonl", scriptHead({}) + "\n");
+  EXPECT_NO_THROW(readScript(script_));
+  fs::resize_file(script_, kMaxScriptBytes + 1);
+  try {
+    readScript(script_);
+    FAIL() << "it was taken";
+  } catch (const FileError& e) {
+    EXPECT_NE(std::string(e.what()).find("larger than"), std::string::npos) << e.what();
+  }
+}
+
+/// A line that loads told nothing until it was done, and could not be stopped.
+TEST_F(ScriptTest, ALineThatLoadsTellsItsProgressAndCanBeStopped) {
+  folder_.write("session.jsonl",
+                scriptHead({}) +
+                    "\n"
+                    R"({"do": "group", "parts": [], "name": "G"})"
+                    "\n"
+                    R"({"do": "add", "files": [{"mesh": "meshes/vise.step", "metresPerUnit": 1, )"
+                    R"("shape": {"key": "pin", "chord": 0.00017, "angle": 0.1}}], "parts": []})"
+                    "\n");
+  const SessionScript script = readScript(script_);
+  std::vector<double> told;
+  const auto replayUntil = [&](std::size_t calls) {
+    told.clear();
+    session_.reset();
+    replay(script, session_, [&](double fraction) {
+      told.push_back(fraction);
+      return told.size() < calls;
+    });
+  };
+  // The third call comes while the second line loads.
+  EXPECT_THROW(replayUntil(3), Cancelled);
+  ASSERT_GE(told.size(), 3U);
+  EXPECT_EQ(told[0], 0.0);
+  EXPECT_EQ(told[1], 0.5);
+  EXPECT_EQ(session_.scene().groups().size(), 1U);
+  replayUntil(1000);
+  EXPECT_TRUE(std::ranges::is_sorted(told));
+  EXPECT_GE(told.front(), 0.0);
+  EXPECT_LE(told.back(), 1.0);
+}
+
+TEST_F(ScriptTest, GroupsAreNamedWithTheirNumbersAndOneThatIsNotThereIsRefused) {
+  std::vector<GroupId> groups;
+  for (int i = 0; i < 200; ++i)
+    groups.push_back(session_.group({}, i % 2 == 0 ? "Even" : "Odd"));
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    session_.renameGroup(groups[i], i % 2 == 0 ? "Even" : "Odd");
+  const auto json = commandJson(steps::Ungroup{groups}, session_.scene(), script_);
+  ASSERT_EQ(json.at("groups").size(), groups.size());
+  EXPECT_EQ(json.at("groups").at(1), "Odd");
+  EXPECT_EQ(json.at("groups").at(199).at("name"), "Odd");
+  EXPECT_EQ(json.at("groups").at(199).at("number"), 100);
+  session_.ungroup({groups.front()});
+  EXPECT_THROW(commandJson(steps::Ungroup{{groups.front()}}, session_.scene(), script_), UsageError);
+}
+
 /// The records of the state that redo leads to are older than those of the state before it.
 TEST_F(ScriptTest, RecordsAreThoseOfTheStateThatRedoLeadsTo) {
   fill();
@@ -428,7 +593,7 @@ class RandomSession : public ScriptTest, public ::testing::WithParamInterface<un
   }
 
   void act() {
-    switch (below(20)) {
+    switch (below(22)) {
       case 0:
         session_.undo();
         break;
@@ -493,6 +658,14 @@ class RandomSession : public ScriptTest, public ::testing::WithParamInterface<un
         joint.part = anyPart();
         joint.onPart.point = {number(), number(), number()};
         session_.addJoint(joint, pose());
+        break;
+      }
+      case 19:
+      case 20: {
+        const auto& records = session_.scene().pairRecords();
+        if (!records.empty())
+          session_.setFindingState({records[below(records.size())].pair},
+                                   below(2) == 0 ? FindingState::Accepted : FindingState::New, "so");
         break;
       }
       default:

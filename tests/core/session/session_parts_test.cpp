@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
@@ -66,6 +68,31 @@ TEST(SessionParts, ARepairIsOneStepThatKeepsPosesAndIsRefusedForLockedParts) {
   EXPECT_EQ(session.scene().get(peg).geometry, open);
   session.setLocked(peg, true);
   EXPECT_THROW(session.repairParts({{peg, closed}}), UsageError);
+}
+
+/// A part that was named twice moved twice, away from the others.
+TEST(SessionParts, APartThatIsNamedTwiceMovesOnce) {
+  Session session;
+  const PartId block = session.addPart({}, "Block"),
+               peg = session.addPart({}, "Peg", {{1, 0, 0, 0}, {1, 0, 2}});
+  // A quarter turn about z, and up by 3.
+  const double half = std::sqrt(0.5);
+  session.moveParts({block, peg, peg, block}, block, {{half, 0, 0, half}, {0, 0, 3}});
+  EXPECT_EQ(session.undoText(), "Move 2 parts");
+  const glm::dvec3 reached = session.scene().get(peg).worldFromPart.translation;
+  EXPECT_NEAR(reached.x, 0.0, 1e-12);
+  EXPECT_NEAR(reached.y, 1.0, 1e-12);
+  EXPECT_NEAR(reached.z, 5.0, 1e-12);
+  EXPECT_EQ(session.scene().get(block).worldFromPart.translation, glm::dvec3(0, 0, 3));
+}
+
+/// Twice in the list, the parts of the group in hand were taken for others, and each named.
+TEST(SessionParts, AGroupInHandWhosePartIsNamedTwiceMovesAsTheGroup) {
+  Session session;
+  const PartId block = session.addPart({}, "Block"), peg = session.addPart({}, "Peg");
+  session.setMovingGroup(session.group({{block, peg}, {}}, "Frame"));
+  session.moveParts({block, peg, peg}, block, {{1, 0, 0, 0}, {0, 0, 1}});
+  EXPECT_EQ(session.undoText(), "Move Frame");
 }
 
 }  // namespace
