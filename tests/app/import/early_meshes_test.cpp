@@ -38,6 +38,7 @@
 #include "app/import/solid_bodies.h"
 #include "core/import/document_file.h"
 #include "tests/support/eventually.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::early_meshes_test {
@@ -227,8 +228,7 @@ TEST(EarlyMeshes, DocumentHasTheSameBytesWithAndWithoutThem) {
 class SharedEntities : public ::testing::Test {
  protected:
   SharedEntities() {
-    std::string text = test::readBytes(std::filesystem::path(NEARFIT_SOURCE_DIR) /
-                                       "tests/app/import/models/two_solids.step");
+    std::string text = test::readBytes(test::sourceFolder() / "tests/app/import/models/two_solids.step");
     const auto replace = [&text](const std::string& before, const std::string& after) {
       const std::size_t at = text.find(before);
       ASSERT_NE(at, std::string::npos) << before;
