@@ -112,6 +112,8 @@ std::vector<std::string> namesIn(const fs::path& folder) {
 /// True if a report of a sanitizer is about our code: it names that before a library's. A library that overruns its own
 /// memory, or asks for too much, is what the process is there for.
 bool isOurs(const std::string& report) {
+  // A process that was ended while it reported, as by a user who cancels, says nothing of whose fault it was.
+  if (report.find("SUMMARY: ") == report.npos) return false;
   constexpr std::array kMemory{"out of memory", "out-of-memory", "allocation-size-too-big",
                                "hard rss limit exhausted", "failed to allocate"};
   if (std::ranges::any_of(kMemory, [&](const char* text) { return report.find(text) != report.npos; }))

@@ -200,7 +200,7 @@ void compareHeld(const BodyPair& pair, double within, double slack, std::uint64_
   LmdScratch scratch;
   std::vector<TrianglePair> pairs(1U << 18);
   std::size_t compared = 0, provedWays = 0;
-  for (std::size_t i = 0; i < std::max<std::size_t>(2, 8 / test::kTrialShare); ++i) {
+  for (std::size_t i = 0; i < std::max<std::size_t>(4, 8 / test::kTrialShare); ++i) {
     const RigidTransform start = test::poseNearContact(pair, within, random);
     const NearbyTriangles nearby =
         findNearbyTriangles(scene, part, start, within + slack, scratch, pairs, kAnyWork);

@@ -21,7 +21,7 @@ namespace {
 using test::BodyPair;
 
 constexpr double kCutoff = 0.15;
-constexpr std::size_t kTicks = 400 / test::kTrialShare + 50;
+constexpr std::size_t kTicks = 400;
 
 void expectSame(const std::vector<Lmd>& a, const std::vector<Lmd>& b, std::size_t tick) {
   ASSERT_EQ(a.size(), b.size()) << tick;
@@ -60,9 +60,12 @@ struct Follower {
         EXPECT_EQ(result->completeTo, kCutoff);
         const std::vector<Lmd> found(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(result->count));
         expectSame(found, test::allLmds(scene, part, pose, kCutoff), tick);
-        test::LmdTally tally;
-        test::compareAtPose(pair, pose, kCutoff, tally);
-        minima += tally.minima;
+        // Brute force takes most of the time.
+        if (tick % test::kTrialShare == 0) {
+          test::LmdTally tally;
+          test::compareAtPose(pair, pose, kCutoff, tally);
+          minima += tally.minima;
+        }
       } else {
         ++late;
       }
@@ -97,7 +100,7 @@ TEST(LmdTracker, IsExactAlongASmoothPathAndSeldomLate) {
     Follower follower;
     const RigidTransform start = poseInContact(follower);
     follower.follow([&](std::size_t tick) { return onWay(start, 0.02 * static_cast<double>(tick)); }, delay);
-    EXPECT_GT(follower.minima, kTicks / 4);
+    EXPECT_GT(follower.minima, kTicks / 4 / test::kTrialShare);
     EXPECT_LT(follower.late, kTicks / 10 + 10);
   }
 }
