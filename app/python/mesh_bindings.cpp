@@ -90,7 +90,7 @@ Vector centreOf(const Mesh& mesh) {
   return arrayOf<Vector>(std::vector<double>{centre.x, centre.y, centre.z}, {3});
 }
 
-/// As os.fsdecode() gives it: a path need not be UTF-8.
+/// The path by os.fsdecode(): it need not be UTF-8.
 nb::str fileOf(const Mesh& mesh) {
   const std::string& path = mesh.geometry->file.native();
   auto text =

@@ -187,7 +187,7 @@ def test_asking_about_each_part_keeps_memory_bounded():
         assert nearfit.distance(scene, name, above, threads=1) == pytest.approx(expected, rel=1e-12)
         if i == 11:
             before = memory()
-    # What a part's queries hold is some 20 MB: of these twenty it was 400 MB.
+    # Queries of a part hold some 20 MB: of these twenty, 400 MB.
     assert memory() - before < 150e6
 
 
