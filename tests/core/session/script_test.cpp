@@ -394,7 +394,7 @@ TEST_F(ScriptTest, RecordsOfTheStartThatWereLeftOutComeBack) {
   expectSameAfterReplay();
 }
 
-/// What is recorded can be read: where it could not, it is refused before anything is written, and nothing is lost.
+/// A recording that no reader would take is refused before anything is written, and nothing is lost.
 TEST_F(ScriptTest, ARecordingBeyondTheLimitsIsRefusedAndGoesOn) {
   const std::vector<std::pair<ScriptLimits, const char*>> limits = {
       {ScriptLimits{.maxLines = 3}, "3 lines"},

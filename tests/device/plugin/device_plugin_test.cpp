@@ -23,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
+const std::string kExamplePlugin = test::builtPath("test_plugins/libnearfit_example_plugin.so");
+
 std::string whyNot(const fs::path& file) {
   try {
     DevicePlugin::load(file);
@@ -33,7 +35,7 @@ std::string whyNot(const fs::path& file) {
 }
 
 TEST(DevicePlugin, ExampleIsLoadedOpenedReadAndPushed) {
-  const auto plugin = DevicePlugin::load(test::builtPath("test_plugins/libnearfit_example_plugin.so"));
+  const auto plugin = DevicePlugin::load(kExamplePlugin);
   EXPECT_EQ(plugin->name(), "Example plug-in");
   const auto devices = plugin->devices();
   ASSERT_EQ(devices.size(), 1U);
@@ -65,7 +67,7 @@ TEST(DevicePlugin, ExampleIsLoadedOpenedReadAndPushed) {
 }
 
 TEST(DevicePlugin, ItsOwnWordsReachTheUser) {
-  const auto plugin = DevicePlugin::load(test::builtPath("test_plugins/libnearfit_example_plugin.so"));
+  const auto plugin = DevicePlugin::load(kExamplePlugin);
   const test::ScopedVariable fails("NEARFIT_EXAMPLE_FAILS", "1");
   try {
     plugin->devices();
@@ -88,7 +90,7 @@ TEST(DevicePlugin, WhatIsNoneIsRefusedWithItsReason) {
 TEST(DevicePlugin, FilesThatOthersMayWriteAreNotLoaded) {
   const test::TemporaryFolder folder;
   const fs::path copy = folder.path() / "copy.so";
-  fs::copy_file(test::builtPath("test_plugins/libnearfit_example_plugin.so"), copy);
+  fs::copy_file(kExamplePlugin, copy);
   fs::permissions(copy, fs::perms::owner_all | fs::perms::others_write);
   EXPECT_THAT(whyNot(copy), HasSubstr("other users can write"));
   fs::permissions(copy, fs::perms::owner_all);
@@ -98,7 +100,7 @@ TEST(DevicePlugin, FilesThatOthersMayWriteAreNotLoaded) {
 TEST(DevicePlugin, FilesInFoldersThatOthersMayWriteAreNotLoaded) {
   const test::TemporaryFolder folder;
   const fs::path copy = folder.path() / "copy.so";
-  fs::copy_file(test::builtPath("test_plugins/libnearfit_example_plugin.so"), copy);
+  fs::copy_file(kExamplePlugin, copy);
   fs::permissions(copy, fs::perms::owner_all);
   fs::permissions(folder.path(), fs::perms::owner_all | fs::perms::group_write);
   EXPECT_THAT(whyNot(copy), HasSubstr("other users can write to its folder"));
@@ -110,7 +112,7 @@ TEST(DevicePlugin, FilesBelowFoldersThatOthersMayWriteAreNotLoaded) {
   const test::TemporaryFolder folder;
   const fs::path above = folder.path() / "above", inner = above / "inner", copy = inner / "copy.so";
   fs::create_directories(inner);
-  fs::copy_file(test::builtPath("test_plugins/libnearfit_example_plugin.so"), copy);
+  fs::copy_file(kExamplePlugin, copy);
   for (const fs::path& each : {copy, inner, above})
     fs::permissions(each, fs::perms::owner_all);
   EXPECT_EQ(whyNot(copy), "");
@@ -136,7 +138,7 @@ TEST(DevicePlugin, WhatIsCheckedIsWhatIsLoadedHoweverItsNameChanges) {
   const test::TemporaryFolder folder;
   const fs::path trusted = folder.path() / "trusted", foreign = folder.path() / "foreign";
   const fs::path name = folder.path() / "name.so", next = folder.path() / "next.so";
-  fs::copy_file(test::builtPath("test_plugins/libnearfit_example_plugin.so"), trusted);
+  fs::copy_file(kExamplePlugin, trusted);
   fs::permissions(trusted, fs::perms::owner_all);
   std::ofstream(foreign) << "what somebody else wrote: if it were loaded, the loader would complain";
   fs::permissions(foreign, fs::perms::owner_all | fs::perms::others_write);
@@ -161,7 +163,7 @@ TEST(DevicePlugin, TwoFilesAreTwoLibrariesWhateverWasLoadedBefore) {
   const test::TemporaryFolder folder;
   const fs::path one = folder.path() / "one.so", other = folder.path() / "other.so";
   for (const fs::path& file : {one, other}) {
-    fs::copy_file(test::builtPath("test_plugins/libnearfit_example_plugin.so"), file);
+    fs::copy_file(kExamplePlugin, file);
     fs::permissions(file, fs::perms::owner_all);
   }
   EXPECT_EQ(whyNot(one), "") << "its descriptor is free again";
@@ -215,7 +217,7 @@ TEST(DevicePlugin, ARateThatTheServoCannotKeepIsRefused) {
 TEST(DevicePlugin, FoldersAreSearchedAndProblemsAreTold) {
   const test::TemporaryFolder folder;
   const fs::path copy = folder.path() / "good.so", bad = folder.path() / "bad.so";
-  fs::copy_file(test::builtPath("test_plugins/libnearfit_example_plugin.so"), copy);
+  fs::copy_file(kExamplePlugin, copy);
   fs::permissions(copy, fs::perms::owner_all);
   std::ofstream(bad) << "bad";
   std::ofstream(folder.path() / "readme.txt") << "not looked at";
