@@ -300,6 +300,24 @@ class FirstArrival(Folder):
         self.write("tests/stress/results/hours_springs.csv",
                    "mode,ticks,force drift N,growth bytes\n" + "".join(f"{m},3600000,0,0\n" for m in modes))
 
+    def test_make_the_tables_of_python_and_sweeps_once_their_files_are_there(self):
+        measured = {"cold_minima": (12345, "1", ""), "cold_cpp_us": (10, "us", ""), "cold_python_us": (11, "us", ""),
+                    "cold_python_over_cpp": (1.1, "1", 1.05), "cold_python_all_processors_us": (6, "us", ""),
+                    "tracked_python_us": (2, "us", ""), "tracked_python_all_processors_us": (1, "us", ""),
+                    "call_without_query_us": (2.5, "us", 3), "call_over_batch_us": (1.5, "us", 3), "wheel_s": (200, "s", 180)}
+        self.write("tests/app/results/python.csv", "measure,value,unit,goal\n" +
+                   "".join(f"{name},{value},{unit},{goal}\n" for name, (value, unit, goal) in measured.items()))
+        made = self.make("python package")
+        self.assertIn("| Python over C++ | 1.10 | **missed** (at most 1.05) |", made)
+        self.assertIn("| call of one pose, all out of reach | 2.5 us | met (at most 3.0 us) |", made)
+        self.assertIn("| wheel built from nothing | 200 s | **missed** (at most 180 s) |", made)
+        self.write("tests/app/results/sweep_cost.csv", 'quantity,value,unit\nrow of all measures,1500,us\nlarge: rows,1e9,\n'
+                   'two workers over one,1.75,"times as fast, median"\n')
+        made = self.make("sweep cost")
+        self.assertIn("| row of all measures | 1.5 ms |  |", made)
+        self.assertIn("| large: rows | 1,000,000,000 |  |", made)
+        self.assertIn("| two workers over one | 1.75 | **missed** (at least 1.8) |", made)
+
     def test_make_the_tables_of_scenes_once_their_files_are_there(self):
         bench = "tests/bench/results/"
         self.write(bench + "check.csv", "scene,parts,meshes,triangles,threshold_m,method,figure,unit,runs,median,worst,goal,met,remark\n"
@@ -313,10 +331,10 @@ class FirstArrival(Folder):
         self.write(bench + "verdicts.csv",
                    "scene,pairs,agree,worst_distance_difference_m,clear,near,touching,clashes,contained\nvise,10,10,1e-16,1,2,3,4,0\n")
         self.assertIn("| vise | 10 | 10 | 1e-16 | 1 | 2 | 3 | 4 | 0 |", self.make("verdicts"))
-        self.write("tests/app/export/results/read_back.csv",
-                   "revision,writer,format,reader,parts,names_equal,max_pose_error,colours_differing,shapes_not_shared,validator,"
-                   "validator_errors,validator_warnings,right\nabc,Nearfit 1,step,OCP 7,12,yes,1e-12,0,0,,,,yes\n"
-                   "abc,Nearfit 1,glb,trimesh 5,11,no,1e-12,0,0,gltf-validator 2,3,0,no\n")
+        self.write("tests/app/results/read_back.csv",
+                   "# revision: abc\nwriter,format,reader,parts,names_equal,max_pose_error,colours_differing,shapes_not_shared,validator,"
+                   "validator_errors,validator_warnings,right\nNearfit 1,step,OCP 7,12,yes,1e-12,0,0,,,,yes\n"
+                   "Nearfit 1,glb,trimesh 5,11,no,1e-12,0,0,gltf-validator 2,3,0,no\n")
         self.assertIn("| `.step` | OCP 7 | 12 | yes | 1e-12 | 0 | 0 | none | right |", self.make("read back"))
         self.assertIn("| 3 errors, 0 warnings (gltf-validator 2) | **not right** |", self.make("read back"))
         self.write(bench + "window_hour.csv",

@@ -58,7 +58,8 @@ class Step:
 
 @dataclass
 class Part:
-    """`files` and `pictures` (patterns, beside them) are relative to tests/. Parts apart run only by their whole name."""
+    """`files` and `pictures` (patterns, beside them) are relative to tests/. Parts apart run only by their whole name. A part
+    with an `interpreter`, relative to the build's folder, needs the Python package that the build makes there."""
     name: str
     minutes: float
     files: tuple
@@ -67,12 +68,15 @@ class Part:
     program: str = "nearfit-bench"
     command: str = ""
     is_apart: bool = False
+    interpreter: str = ""
 
     def steps(self, setting):
         return self.make(setting)
 
     def is_offered(self, setting):
-        """False for a command that the programs do not have, such as one of a later revision."""
+        """False for a command that the programs do not have, such as one of a later revision, or without its interpreter."""
+        if self.interpreter and not (setting.bin.parent / self.interpreter).exists():
+            return False
         offered = setting.help_of(self.program)
         return not self.command or bool(re.search(rf"^\s+{re.escape(self.command)}\b", offered, re.MULTILINE))
 
@@ -189,40 +193,55 @@ def _round_trip(setting):
                   str(setting.folder / "round_trip"), "--csv", str(csv), *_busy(setting)], may_miss=True)]
 
 
+def _package_part(name, minutes, script, *options, file):
+    """A script on the Python package of this build, in the virtual environment that the build makes."""
+    interpreter = "python/venv/bin/python"
+
+    def make(setting):
+        build = setting.bin.parent
+        options_here = [option.format(bin=setting.bin, build=build, csv=setting.results / file) for option in options]
+        return [Step(["env", f"PYTHONPATH={build / 'python' / 'package'}", str(build / interpreter),
+                      str(setting.root / "tests" / "app" / "python" / script), *options_here, *_busy(setting)], may_miss=True)]
+
+    return Part(name, minutes, (file,), make, interpreter=interpreter)
+
+
 # What is timed comes first; the stress runs, whose results do not depend on time, take all processors.
 PARTS = (
     _bench_part("query_paper", 3, "query", "--clock", "thread", "--scenes", PAPER, uses_shared=True),
-    _bench_part("query_generated", 4, "query", "--clock", "thread"),
+    _bench_part("query_generated", 3, "query", "--clock", "thread"),
     _bench_part("query_flats", 3, "query", "--clock", "thread", "--scenes", "peg-hole"),
     Part("paper", 5, ("bench/results/paper.csv",), _paper, ("bench/results/paper_*.png",), command="paper"),
     Part("check", 5, ("bench/results/check.csv",), _check, command="check"),
     _bench_part("path", 3, "path", uses_shared=True),
-    _bench_part("suggest", 5, "suggest", may_miss=True),
+    _bench_part("suggest", 4, "suggest", may_miss=True),
     _bench_part("verdicts", 3, "verdicts", uses_shared=True),
     _bench_part("build", 2, "build"),
     _bench_part("program", 2, "program", "--clock", "thread"),
-    Part("feel", 8, ("bench/results/feel.csv", "bench/results/certified.csv"), _feel, command="feel"),
+    Part("feel", 7, ("bench/results/feel.csv", "bench/results/certified.csv"), _feel, command="feel"),
     _bench_part("dense", 3, "feel", "--groups", "dense,curved", "--count", "1500", "--clock", "thread"),
     _bench_part("feel_million", 2, "feel", "--groups", "pairs", "--pairs", "organic-1m", "--count", "1500", "--clock", "thread"),
     _bench_part("tessellation", 3, "feel", "--groups", "tessellation"),
-    Part("error", 8, ("bench/results/error.csv", "bench/results/error.md"), _error, ("bench/results/error_*.png",), command="error"),
+    Part("error", 7, ("bench/results/error.csv", "bench/results/error.md"), _error, ("bench/results/error_*.png",), command="error"),
     _bench_part("skips", 4, "skips", is_shown=True),
-    _bench_part("import", 5, "import", uses_shared=True),
+    _bench_part("import", 4, "import", uses_shared=True),
     Part("scene", 2, ("bench/results/scene.csv", "bench/results/scene_instances.csv"), _scene, command="scene"),
-    Part("window", 5, ("bench/results/window.csv",), _window, program="nearfit-bench-window", command="figures"),
+    Part("window", 4, ("bench/results/window.csv",), _window, program="nearfit-bench-window", command="figures"),
+    _package_part("python", 6, "bench.py", "--bench", "{bin}/nearfit-bench", "--csv", "{csv}", "--wheel", file="app/results/python.csv"),
+    _package_part("sweep-cost", 4, "sweep_cost.py", "--build", "{build}", "--out", "{csv}", file="app/results/sweep_cost.csv"),
     Part("round-trip", 3, ("usb/results/round_trip.csv",), _round_trip, program="nearfit-emulate"),
-    Part("evidence", 10, ("evidence/results/evidence.csv", "evidence/results/goals.json", "evidence/results/README.md"), _evidence,
+    Part("evidence", 9, ("evidence/results/evidence.csv", "evidence/results/goals.json", "evidence/results/README.md"), _evidence,
          ("evidence/results/*.png",), program="nearfit-cli"),
-    _stress_part("hand", 9, "--mode", "proxy", "--ticks", "4000000", "--certify", "10", "--threads", "2"),
+    _stress_part("hand", 8, "--mode", "proxy", "--ticks", "4000000", "--certify", "10", "--threads", "2"),
     _stress_part("rest", 5, "--mode", "proxy", may_miss=True),
     _stress_part("limit", 2, "--mode", "proxy", may_miss=True, pictures=("stress/results/limit.png",), draw=_draw_limit),
-    _stress_part("hours", 4, "--mode", "proxy", "--hours", "8", may_miss=True),
+    _stress_part("hours", 3, "--mode", "proxy", "--hours", "8", may_miss=True),
     _stress_part("hand-springs", 2, "--mode", SPRINGS, "--ticks", "200000", "--certify", "none", "--threads", "2", may_miss=True),
     # Its usual periods are those of 5,000, 2,000, 1,000, 500, 200 and 100 Hz.
     _stress_part("rest-springs", 3, "--mode", SPRINGS, "--seconds", "3", may_miss=True),
     _stress_part("limit-springs", 2, "--mode", SPRINGS, may_miss=True),
     _stress_part("hours-springs", 2, "--mode", SPRINGS, "--hours", "1", may_miss=True),
-    _stress_part("oracle", 3, "--poses", "500000", "--threads", "2", file="oracle.txt"),
+    _stress_part("oracle", 2, "--poses", "500000", "--threads", "2", file="oracle.txt"),
     Part("window-hour", 63, ("bench/results/window_hour.csv",), _hour, ("bench/results/window_hour.png",),
          program="nearfit-bench-window", command="hour", is_apart=True),
 )

@@ -102,7 +102,7 @@ def hour(results):
                     "last", "worst at minute"], rows)
 
 
-READ_BACK = "tests/app/export/results/read_back.csv"
+READ_BACK = "tests/app/results/read_back.csv"
 
 
 @c.needs(READ_BACK, command="tests/app/export/read_back.py")
@@ -112,7 +112,7 @@ def read_back(results):
         errors = f"{row['validator_errors']} errors, {row['validator_warnings']} warnings ({row['validator']})" if row["validator"] else "none"
         rows.append([f"`.{row['format']}`", row["reader"], row["parts"], row["names_equal"], row["max_pose_error"], row["colours_differing"],
                      row["shapes_not_shared"], errors, "right" if row["right"] == "yes" else "**not right**"])
-    writers = ", ".join(sorted({f"{row['writer']} at `{row['revision']}`" for row in results.table(READ_BACK).where()}))
+    writers = ", ".join(sorted({f"{row['writer']} at `{results.table(READ_BACK).head['revision']}`" for row in results.table(READ_BACK).where()}))
     return n.table([f"format, written by {writers}", "read by", "parts", "names equal", "poses off by at most", "colours that differ",
                     "shapes not shared", "validator", "outcome"], rows, right_from=9)
 

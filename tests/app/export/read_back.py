@@ -10,7 +10,7 @@ scene: names must be equal, matrices to 1e-9 (metres; rotations as numbers), col
 share their triangles in the scene must share them in the file. Prints a row for each format and ends with 1 if one of them
 differs. STEP is read by OpenCASCADE's Python bindings, of another version than the exporter's, glTF and 3MF by trimesh, URDF by
 the standard library; glTF is checked by the validator of its makers, without which (--no-validator) nothing says that it is
-valid. --csv writes the rows for machines; results that are kept are of a clean revision: tests/app/export/results/read_back.csv, of which
+valid. --csv writes the rows for machines; results that are kept are of a clean revision: tests/app/results/read_back.csv, of which
 resources/scripts/figures makes the table in resources/docs/cli.md.
 """
 import argparse
@@ -40,6 +40,10 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.XCAFDoc import XCAFDoc_ColorGen, XCAFDoc_ColorSurf, XCAFDoc_ColorTool, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
 ROOT = Path(__file__).resolve().parents[3]
+sys.dont_write_bytecode = True  # The folder is the repository's.
+sys.path.insert(0, str(ROOT / "resources" / "scripts" / "figure_sources"))
+import heads  # noqa: E402
+
 TOLERANCE = 1e-9
 # Half a step of 8 bits, and what rounding of single precision adds.
 COLOUR_TOLERANCE = 0.5 / 255 + 1e-6
@@ -224,14 +228,6 @@ def validate(file, modules):
     return int(said[0]), int(said[1]), said[2]
 
 
-def revision():
-    """Of the sources, "-dirty" behind it where they differ."""
-    def git(*words):
-        return subprocess.run(["git", "-C", str(ROOT), *words], check=True, capture_output=True, text=True).stdout.strip()
-    changes = git("status", "--porcelain", "--untracked-files=no", "--", ".", ":(exclude)tests/*/results/*", ":(exclude)*.md")
-    return git("rev-parse", "--short=12", "HEAD") + ("-dirty" if changes else "")
-
-
 def versions(program):
     """Of what writes: Nearfit, and the OpenCASCADE of the importer beside it."""
     says = subprocess.run([str(program.parent / "nearfit-import"), "--version"], check=True, capture_output=True, text=True).stdout
@@ -257,8 +253,13 @@ def main():
     given = options.parse_args()
     if (given.validator is None) != given.no_validator:
         options.error("give the glTF validator (--validator /tmp/node_modules), or --no-validator")
-    if given.csv and revision().endswith("-dirty") and given.csv.resolve().is_relative_to(ROOT):
-        options.error("results of sources that differ from their commit cannot be repeated: commit first")
+    at_work = heads.others_at_work()
+    try:
+        # Nothing is timed.
+        heads.check_repeatable(given.csv, ROOT, at_work, allows_busy=True)
+    except heads.NotRepeatable as refusal:
+        options.error(str(refusal))
+    head = heads.head(ROOT, given.bin.resolve().parent, at_work)
     program = given.bin / "nearfit-cli"
     readers = {name: f"{name} {importlib.metadata.version(name)}" for name in ("cadquery-ocp", "trimesh")}
     readers["python"] = f"Python {sys.version.split()[0]}"
@@ -291,7 +292,7 @@ def main():
             good = good and is_right
             if not is_right:
                 print("  found:", sorted(f.name for f in found))
-            rows.append({"revision": revision(), "writer": versions(program), "format": file.suffix[1:],
+            rows.append({"writer": versions(program), "format": file.suffix[1:],
                          "reader": readers[reader], "parts": len(found),
                          "names_equal": ("yes" if missing == 0 else "no") if are_names_kept else "not compared",
                          "max_pose_error": f"{worst:.3g}", "colours_differing": colours, "shapes_not_shared": unshared,
@@ -300,6 +301,7 @@ def main():
         if given.csv:
             given.csv.parent.mkdir(parents=True, exist_ok=True)
             with given.csv.open("w", newline="", encoding="utf-8") as out:
+                out.writelines(f"# {line}\n" for line in head)
                 writer = csv.DictWriter(out, rows[0].keys(), lineterminator="\n")
                 writer.writeheader()
                 writer.writerows(rows)

@@ -2,7 +2,7 @@
 """Measures the Python package against C++: lmds() of 10,000 poses, what a call of one pose takes over the query, and how long
 a wheel takes to build.
 
-    tests/app/python/bench.py --bench build/release/bin/nearfit-bench --csv tests/app/python/results/python.csv [--wheel]
+    tests/app/python/bench.py --bench build/release/bin/nearfit-bench --csv tests/app/results/python.csv [--wheel]
 
 Runs where the package can be imported: with build/release/python/venv of the tests, PYTHONPATH=build/release/python/package. nearfit-bench gets the same meshes,
 poses and cutoff, by turns with Python; of each the best of several rounds counts. --wheel also builds the wheel from nothing,
