@@ -120,9 +120,10 @@ ImportJob openJob(const ImportOptions& options) {
   job.tessellation = options.tessellation;
   job.onlyShapes = options.onlyShapes;
   std::filesystem::path name = options.file.filename();
-  if (InputFile(options.file).size() > kMaxFileBytes)
+  InputFile input(options.file);
+  if (input.size() > kMaxFileBytes)
     throw FileError(options.file.string(), "it is larger than 4 GiB", "export a part of the assembly");
-  job.bytes = readWholeFile(options.file);
+  job.bytes = input.readAll();
   job.sha256 = sha256OfBytes(job.bytes);
   if (isGzip(job.bytes)) {
     job.bytes = gunzip(job.bytes, options.file.string(), kMaxUnpackedBytes);

@@ -142,10 +142,10 @@ double PartQueries::distanceAt(const RigidTransform& pose, double within, Space&
     if (least == 0.0) break;
     const double limit = std::min(within, least);
     if (isFarther(other, pose, limit)) continue;
-    const std::optional<PairSeparation> separation =
-        separationOf(*part_, *other.geometry, poseIn(other, pose), limit, *space.scratch,
-                     {.part = *partComponents_, .other = *other.components});
-    if (separation) least = std::min(least, separation->distance);
+    const std::optional<double> distance =
+        distanceWithin(*part_, *other.geometry, poseIn(other, pose), limit, *space.scratch,
+                       {.part = *partComponents_, .other = *other.components});
+    if (distance) least = std::min(least, *distance);
   }
   return least;
 }

@@ -120,24 +120,27 @@ void InputFile::touch() const noexcept {
   ::futimens(descriptor_, times);
 }
 
-std::vector<char> readWholeFile(const std::filesystem::path& file,
-                                const std::function<void(double fraction)>& onBlock) {
-  InputFile input(file);
+std::vector<char> InputFile::readAll(const std::function<void(double fraction)>& onBlock) {
   // The size at opening bounds the memory, even if the file grows.
-  std::vector<char> bytes(input.size());
+  std::vector<char> bytes(size_);
   std::size_t filled = 0;
   while (filled < bytes.size()) {
     const std::size_t wanted = std::min(kBlockBytes, bytes.size() - filled);
-    const std::size_t count = input.read(std::span(bytes).subspan(filled, wanted));
+    const std::size_t count = read(std::span(bytes).subspan(filled, wanted));
     filled += count;
     if (count < wanted) break;
     if (onBlock) onBlock(static_cast<double>(filled) / static_cast<double>(bytes.size()));
   }
   if (filled < bytes.size()) {
-    throw FileError(file.string(), "it shrank while it was being read",
+    throw FileError(file_.string(), "it shrank while it was being read",
                     "try again when no program writes to it");
   }
   return bytes;
+}
+
+std::vector<char> readWholeFile(const std::filesystem::path& file,
+                                const std::function<void(double fraction)>& onBlock) {
+  return InputFile(file).readAll(onBlock);
 }
 
 }  // namespace nearfit

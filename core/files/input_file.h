@@ -34,6 +34,9 @@ class InputFile {
   /// Fills `buffer` until it is full or the file ends; returns the bytes read, 0 at the end.
   /// Throws FileError.
   std::size_t read(std::span<char> buffer);
+  /// Reads all of it, as large as it was when it was opened; to be called before read(). `onBlock` gets the fraction
+  /// read (0 to 1) after each block and may throw to stop. Throws FileError, also if the file shrank meanwhile.
+  std::vector<char> readAll(const std::function<void(double fraction)>& onBlock = {});
   /// Fills `buffer` from byte `offset` on; false if the file ends before, as one that was truncated does.
   /// Independent of read(); thread-safe. Throws FileError.
   bool readAt(std::uint64_t offset, std::span<std::byte> buffer) const;
@@ -46,8 +49,7 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
-/// Reads the whole file. `onBlock` gets the fraction read (0 to 1) after each block and may throw to stop.
-/// Throws FileError, also if the file shrinks meanwhile.
+/// InputFile::readAll() of a file whose size nobody limits.
 std::vector<char> readWholeFile(const std::filesystem::path& file,
                                 const std::function<void(double fraction)>& onBlock = {});
 

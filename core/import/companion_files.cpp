@@ -79,8 +79,9 @@ bool isPackageName(const std::string& name) {
 /// Text of a file as it is, or unpacked; empty if it cannot be read or is too large.
 std::vector<char> searchableText(const fs::path& file) {
   try {
-    if (InputFile(file).size() > kMaxSearchedUrdf) return {};
-    std::vector<char> bytes = readWholeFile(file);
+    InputFile input(file);
+    if (input.size() > kMaxSearchedUrdf) return {};
+    std::vector<char> bytes = input.readAll();
     return isGzip(bytes) ? gunzip(bytes, file.string(), kMaxSearchedUrdf) : bytes;
   } catch (const FileError&) {
     return {};

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/files/input_file.h"
 #include "core/files/sha256.h"
 #include "core/parallel/parallel_for.h"
 #include "core/path/path_file.h"
@@ -217,6 +218,15 @@ std::string certificateText(const Certificate& certificate) {
   text += hash;
   text += kAfterHash;
   return text;
+}
+
+std::vector<char> readCertificateFile(const std::filesystem::path& file) {
+  InputFile input(file);
+  if (input.size() > kCertificateLimits.maxBytes) {
+    throw FileError(file.string(), fmt::format("it is larger than {} bytes", kCertificateLimits.maxBytes),
+                    "check that it is a certificate");
+  }
+  return input.readAll();
 }
 
 Certificate parseCertificate(std::string_view text, const std::filesystem::path& file) {

@@ -90,6 +90,9 @@ std::filesystem::path fileOfCertifiedName(const std::string& name, const std::fi
 /// Text of the file; always the same for the same certificate.
 std::string certificateText(const Certificate& certificate);
 
+/// Bytes of a file with a certificate. Throws FileError, also if it is larger than one can be.
+std::vector<char> readCertificateFile(const std::filesystem::path& file);
+
 /// Reads the text of a certificate and trusts nothing in it: a byte that differs from what was written is refused by
 /// the hash at its end; numbers are finite, indices valid, the path passes checkPath().
 /// @param file  For messages.

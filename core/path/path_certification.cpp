@@ -96,7 +96,7 @@ std::optional<AssemblyPath> pathToVerify(const VerificationFiles& files, const C
 }
 
 PathVerification verified(const VerificationFiles& files, const ProgressCallback& progress) {
-  const std::vector<char> text = readWholeFile(files.certificate);
+  const std::vector<char> text = readCertificateFile(files.certificate);
   const Certificate certificate =
       orRefuse([&] { return parseCertificate({text.data(), text.size()}, files.certificate); });
   const std::filesystem::path sceneFile = sceneToVerify(files, certificate);

@@ -103,16 +103,12 @@ std::string scriptHead(const std::optional<std::filesystem::path>& scene) {
 
 SessionScript readScript(const std::filesystem::path& file) {
   // Opened once: another file may take its place meanwhile.
-  const InputFile input(file);
+  InputFile input(file);
   if (input.size() > kMaxScriptBytes) {
     throw FileError(file.string(), fmt::format("it is larger than {} bytes", kMaxScriptBytes),
                     "check that it is the right file");
   }
-  std::vector<char> bytes(static_cast<std::size_t>(input.size()));
-  if (!input.readAt(0, std::as_writable_bytes(std::span(bytes)))) {
-    throw FileError(file.string(), "it shrank while it was being read",
-                    "try again when no program writes to it");
-  }
+  const std::vector<char> bytes = input.readAll();
   SessionScript script{file, {}, {}};
   std::string_view rest(bytes.data(), bytes.size());
   bool hasHead = false;

@@ -136,11 +136,13 @@ class JsonBuilder final : public nlohmann::json_sax<Json> {
 }  // namespace
 
 Json readJsonFile(const std::filesystem::path& file, const JsonLimits& limits) {
-  if (InputFile(file).size() > limits.maxBytes) {
+  // Opened once: another file may take its place meanwhile.
+  InputFile input(file);
+  if (input.size() > limits.maxBytes) {
     throw FileError(file.string(), fmt::format("it is larger than {} bytes", limits.maxBytes),
                     "check that it is the right file");
   }
-  const std::vector<char> text = readWholeFile(file);
+  const std::vector<char> text = input.readAll();
   return readJsonText({text.data(), text.size()}, file, limits);
 }
 

@@ -56,6 +56,19 @@ std::optional<PairSeparation> separationOf(const PartGeometry& part, const PartG
   return result;
 }
 
+std::optional<double> distanceWithin(const PartGeometry& part, const PartGeometry& other,
+                                     const RigidTransform& otherFromPart, double within, LmdScratch& scratch,
+                                     const PairComponents& components) {
+  const NormalConeTree &a = part.tree(), &b = other.tree();
+  const bool doBoxesMeet = doOverlap(boundsOf(a.mesh().bounds(), otherFromPart), b.mesh().bounds());
+  if (doBoxesMeet) {
+    const Interference found = findInterference({b, components.other}, {a, components.part}, otherFromPart);
+    if (found.kind != InterferenceKind::Disjoint) return 0.0;
+  }
+  const SurfaceDistance nearest = leastSurfaceDistance(b, a, otherFromPart, within, scratch, kAnyWork);
+  return nearest.isFound ? std::optional(nearest.distance) : std::nullopt;
+}
+
 PairVerdict verdictOf(const PairSeparation& separation) noexcept {
   if (separation.isTouching) return PairVerdict::Touching;
   switch (separation.overlap) {

@@ -48,6 +48,12 @@ std::optional<PairSeparation> separationOf(const PartGeometry& part, const PartG
                                            const RigidTransform& otherFromPart, double within,
                                            LmdScratch& scratch, const PairComponents& components);
 
+/// The distance that separationOf() finds, and no value where that finds none, without what else it finds: of bodies
+/// that meet, whose surfaces are hard to tell apart, in a small part of the time.
+std::optional<double> distanceWithin(const PartGeometry& part, const PartGeometry& other,
+                                     const RigidTransform& otherFromPart, double within, LmdScratch& scratch,
+                                     const PairComponents& components);
+
 /// The verdict on two bodies within the threshold: never Clear.
 PairVerdict verdictOf(const PairSeparation& separation) noexcept;
 

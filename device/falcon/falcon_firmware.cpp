@@ -180,14 +180,15 @@ std::vector<std::byte> readFirmware(const std::filesystem::path& file, const std
                       "it needs its firmware after it is switched on, and no firmware file is set",
                       "give the firmware file that came with its maker's driver");
   }
-  const std::uint64_t size = InputFile(file).size();
+  InputFile input(file);
+  const std::uint64_t size = input.size();
   if (size < kMinFirmware || size > kMaxFirmware) {
     throw DeviceError(DeviceProblem::NoFirmware, where,
                       fmt::format("{} has {} bytes, but firmware has {} to {}", file.string(), size,
                                   kMinFirmware, kMaxFirmware),
                       "give the firmware file that came with its maker's driver");
   }
-  const std::vector<char> content = readWholeFile(file);
+  const std::vector<char> content = input.readAll();
   const std::span<const std::byte> bytes = std::as_bytes(std::span(content));
   return {bytes.begin(), bytes.end()};
 }

@@ -146,7 +146,7 @@ TEST_F(MakerProgram, AReportOfEachMakersDeviceIsWhole) {
   for (const ReportedDevice& device :
        {ReportedDevice{dhd, "forcedimension:1", "omega.6, SDK 3.17.1", 6, 3},
         ReportedDevice{whole, "openhaptics:1", "Touch, OpenHaptics 3.50.0, driver 2.7", 6, 3},
-        ReportedDevice{whole, "haply:1", "Haply Inverse3", 6, 3}}) {
+        ReportedDevice{whole, "haply:1", "Haply Inverse3 with VerseGrip, firmware 7.4", 6, 3}}) {
     install(device.libraries);
     const fs::path file = folder_.path() / "report.json";
     const test::ProcessResult test = run(

@@ -182,8 +182,9 @@ struct HaplyStandin::Server {
                   {"power_supply", device.error != 3},
                   {"ready", device.error != 4},
                   {"started", true}}}};
-      const char* const version = standin.model == 31 ? "firmware_version" : "major_version";
-      if (isWhole) each["config"] = {{"type", "inverse3"}, {"device_info", {{version, 7}}}};
+      const Json info = standin.model == 31 ? Json{{"firmware_version", 7}}
+                                            : Json{{"major_version", 7}, {"minor_version", 4}};
+      if (isWhole) each["config"] = {{"type", "inverse3"}, {"device_info", info}};
       json["inverse3"].push_back(each);
     }
     if (standin.model != 3) {

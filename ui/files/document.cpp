@@ -5,6 +5,7 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -13,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/math/aabb.h"
 #include "core/mesh/mesh_builder.h"
+#include "core/parallel/low_priority.h"
 #include "core/scene/document_parts.h"
 #include "core/scene/moving_body.h"
 #include "core/scene/scene_file.h"
@@ -29,6 +31,9 @@
 
 namespace nearfit::ui {
 namespace {
+
+/// Between pictures that show more shapes instead of boxes: some of them a second, and time for the making.
+constexpr std::chrono::milliseconds kBetweenShapes{200};
 
 /// Share of loading spent on reading; the rest builds shapes.
 constexpr double kReadingMeshes = 0.45, kReadingDocuments = 0.85;
@@ -189,7 +194,15 @@ ProgressCallback progressOfShapes(const ProgressCallback& whole, Reading what) {
 }
 
 Document::Document(Session& session, std::shared_ptr<PartShapeCache> shapes, QWidget* window)
-    : session_(session), shapes_(std::move(shapes)), window_(window) {}
+    : session_(session), shapes_(std::move(shapes)), window_(window) {
+  // Each time all that has been made is shown, and that is a picture to draw.
+  shaped_.setSingleShot(true);
+  shaped_.setInterval(kBetweenShapes);
+  connect(&shaping_, &BackgroundTask::progressed, this, [this] {
+    if (!shaped_.isActive()) shaped_.start();
+  });
+  connect(&shaped_, &QTimer::timeout, this, &Document::shapesMade);
+}
 
 Document::~Document() = default;
 
@@ -198,10 +211,31 @@ void Document::load(const QString& title, const QString& text, BackgroundTask::J
   const auto ended = [this, done = std::move(done)](const std::exception_ptr& error) {
     emit busyChanged();
     done(error);
+    makePostponedShapes();
     prepareNext();
   };
-  runWithDialog(task_, title, text, window_, std::move(job), ended);
+  const auto behindTheView = [job = std::move(job)](const ProgressCallback& progress) {
+    // The window's pictures, which software OpenGL draws on all processors, come first; the importer inherits this too.
+    lowerThreadPriority();
+    job(progress);
+  };
+  runWithDialog(task_, title, text, window_, behindTheView, ended);
   emit busyChanged();
+}
+
+void Document::makePostponedShapes() {
+  if (shaping_.isRunning() || !shapes_->hasPostponed()) return;
+  const auto job = [shapes = shapes_](const ProgressCallback& progress) {
+    // The view goes on drawing meanwhile.
+    lowerThreadPriority();
+    shapes->makePostponed(progress);
+  };
+  shaping_.run(job, [this](const std::exception_ptr& error) {
+    shaped_.stop();
+    emit shapesMade();
+    if (error) return emit failed(describe(tr("Some parts cannot be drawn."), error));
+    makePostponedShapes();
+  });
 }
 
 void Document::prepareHierarchies(std::function<void(bool)> done) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QStringList>
+#include <QTimer>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -85,6 +86,8 @@ class Document : public SceneWork {
  signals:
   /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
+  /// Emitted while shapes are made of parts for which boxes are shown.
+  void shapesMade();
   /// Emitted with a short note for the status bar.
   void noted(const QString& text);
   /// Emitted with parts that were added in one step.
@@ -98,6 +101,8 @@ class Document : public SceneWork {
   void loaded(bool isComplete);
 
  private:
+  /// Makes in another thread the shapes that loading has left out, if there are any.
+  void makePostponedShapes();
   /// Serves the calls that wait for hierarchies, unless busy.
   void prepareNext();
   /// How the files of parts are read.
@@ -130,7 +135,8 @@ class Document : public SceneWork {
   Session& session_;
   std::shared_ptr<PartShapeCache> shapes_;
   QWidget* window_;
-  BackgroundTask task_;
+  BackgroundTask task_, shaping_;
+  QTimer shaped_;
   std::map<QString, double> chosenUnits_;                   ///< In this run, by folder and by ".type" [m].
   std::vector<std::function<void(bool isReady)>> waiting_;  ///< Unanswered prepareHierarchies() calls.
 };

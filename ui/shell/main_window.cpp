@@ -94,6 +94,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   connect(hand_, &HandState::snapshotKept, viewport_, &Viewport::keepSnapshot);
   connect(hand_, &HandState::snapshotCleared, viewport_, &Viewport::clearSnapshot);
   document_ = std::make_unique<Document>(session, shapes, this);
+  connect(document_.get(), &Document::shapesMade, viewport_, &Viewport::takeNewShapes);
   files_ = new FileCommands({session_, *selection_, *hand_, *document_, *viewport_}, this);
   setStatusBar(notes_);
   new StatusReadout(*hand_, notes_);

@@ -21,7 +21,7 @@ constexpr std::size_t kSmall = 20'000;
 constexpr std::size_t kBudgetAtRest = 1'000'000;
 /// Drawn whole while a part is felt in the Balanced quality: some 50 ms in software OpenGL [triangles].
 constexpr std::size_t kBalanced = 150'000;
-constexpr std::size_t kFirstBudget = 120'000, kMinBudget = 30'000, kMaxBudget = 50'000'000;
+constexpr std::size_t kFirstBudget = 80'000, kMinBudget = 30'000, kMaxBudget = 50'000'000;
 /// A picture that takes longer is drawn coarser next time, one that takes less finer [ms]. Software OpenGL
 /// needs another 10 ms to bring it to the screen.
 constexpr qint64 kSlow = 36, kQuick = 15;
@@ -120,9 +120,9 @@ void ViewDetail::smooth(bool isSmooth) {
 void ViewDetail::afterPicture() {
   sincePicture_.start();
   if (!std::exchange(hasDrawn_, true)) compiling_.start();
-  // The rest waits for all parts; the time says nothing of how fast those that are there are drawn.
-  if (isFilling_) return filling_.start();
   if (detail_.triangles > kSmall && !detail_.isFull) adaptBudget();
+  // The rest waits for all parts.
+  if (isFilling_) return filling_.start();
   if (isFinal_) return;
   // Start counting now: drawing may take longer than these times, and only later events count as motion.
   resting_.start();
@@ -140,7 +140,8 @@ void ViewDetail::adaptBudget() {
   renderer_.GetRenderWindow()->WaitForCompletion();
   const qint64 took = picture_.elapsed();
   if (took > kSlow && 2 * detail_.triangles > budget_) budget_ = std::max(kMinBudget, budget_ / 4 * 3);
-  if (took < kQuick && isLimited_) budget_ = std::min(kMaxBudget, budget_ / 3 * 4);
+  // While parts are still to come, a quick picture says nothing of the next.
+  if (took < kQuick && isLimited_ && !isFilling_) budget_ = std::min(kMaxBudget, budget_ / 3 * 4);
 }
 
 void ViewDetail::beginKeeping() {
@@ -203,6 +204,8 @@ void ViewDetail::complete() {
 }
 
 void ViewDetail::showAllNext() {
+  parts_.makeShapes();
+  parts_.makeShapes();
   filling_.stop();
   showsAllNext_ = true;
 }

@@ -201,6 +201,12 @@ void Viewport::setScene(const Scene& scene) {
   requestRender();
 }
 
+void Viewport::takeNewShapes() {
+  if (!parts_.takeNewShapes()) return;
+  showMovingPart();
+  requestRender();
+}
+
 void Viewport::showMovingPart() {
   movingSize_ = sizeOfMoving(scene_);
   std::vector<HandGhost::Piece> pieces;

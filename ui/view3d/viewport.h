@@ -49,6 +49,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
 
   /// Shows a scene; turns to the isometric view if none of its parts has been shown before.
   void setScene(const Scene& scene);
+  /// Draws the shapes of parts that have been made since boxes stood in for them.
+  void takeNewShapes();
   /// Shows the hand's ghost, minima, contacts, wrench and overlapping parts; ShownPoses moves the part in hand.
   /// Draws nothing if none of these changed.
   void showSnapshot(const ServoSnapshot& snapshot);

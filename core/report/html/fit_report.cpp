@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/files/atomic_write.h"
-#include "core/files/input_file.h"
 #include "core/files/sha256.h"
 #include "core/path/path_bodies.h"
 #include "core/path/path_file.h"
@@ -119,7 +118,7 @@ void addPath(FitReportRequest& request, const std::filesystem::path& file) {
 }
 
 void addCertificate(FitReportRequest& request, const std::filesystem::path& file) {
-  const std::vector<char> text = readWholeFile(file);
+  const std::vector<char> text = readCertificateFile(file);
   request.certificate = parseCertificate({text.data(), text.size()}, file);
   request.inputs.push_back({"certificate", file, sha256OfBytes(text)});
 }

@@ -37,10 +37,12 @@ constexpr std::chrono::milliseconds kInventoryPatience{50};
 /// Messages without a place of the device after which it is gone: half a second.
 constexpr int kMaxAbsent = 500;
 
-NearfitDeviceDescription descriptionOf(const InverseListing& listing) {
+/// @param withFirmware  Its version stands behind the name, as other makers' do once a device is open.
+NearfitDeviceDescription descriptionOf(const InverseListing& listing, bool withFirmware) {
   NearfitDeviceDescription out{};
-  plugin::copyText(listing.hasGrip ? "Haply Inverse3 with VerseGrip" : "Haply Inverse3", out.name,
-                   sizeof out.name);
+  std::string name = listing.hasGrip ? "Haply Inverse3 with VerseGrip" : "Haply Inverse3";
+  if (withFirmware && !listing.firmware.empty()) name += ", firmware " + listing.firmware;
+  plugin::copyText(name, out.name, sizeof out.name);
   plugin::copyText(listing.id, out.serial, sizeof out.serial);
   out.sensed_axes = listing.hasGrip ? 6 : 3;
   out.force_axes = 3;
@@ -57,7 +59,7 @@ NearfitDeviceDescription descriptionOf(const InverseListing& listing) {
 class InverseDevice final : public NearfitDevice {
  public:
   explicit InverseDevice(InverseListing listing)
-      : listing_(std::move(listing)), description_(descriptionOf(listing_)) {
+      : listing_(std::move(listing)), description_(descriptionOf(listing_, /*withFirmware=*/true)) {
     link_.emplace(servicePort(), servicePatience(kDevicePatience));
     take(link_->receive());
     exchangeOnce(/*isLast=*/false);
@@ -204,7 +206,7 @@ struct Haply {
 
   static std::int32_t count() { return Inventory::instance().look(); }
   static NearfitDeviceDescription describe(std::int32_t index) {
-    return descriptionOf(Inventory::instance().at(index));
+    return descriptionOf(Inventory::instance().at(index), /*withFirmware=*/false);
   }
   static std::unique_ptr<NearfitDevice> open(std::int32_t index) {
     return std::make_unique<InverseDevice>(Inventory::instance().at(index));

@@ -61,6 +61,21 @@ void takeGrip(const Json& grip, InverseState& state) {
   }
 }
 
+/// A number or text of an object; empty if there is none.
+std::string textOf(const Json& object, const char* name) {
+  const Json* const value = memberOf(object, name);
+  if (value == nullptr) return {};
+  if (value->is_string()) return value->get<std::string>();
+  return value->is_number() ? value->dump() : std::string();
+}
+
+/// Version of the firmware by what the service says of a device; until format 3.5 it was one number.
+std::string firmwareOf(const Json& info) {
+  const std::string major = textOf(info, "major_version"), minor = textOf(info, "minor_version");
+  if (major.empty()) return textOf(info, "firmware_version");
+  return minor.empty() ? major : major + "." + minor;
+}
+
 const Json* anyGripIn(const Json& message) {
   for (const char* kind : kGrips) {
     const Json* const grips = memberOf(message, kind);
@@ -85,6 +100,7 @@ std::vector<InverseListing> readInventory(const std::string& message) {
       const Json* const config = memberOf(each, "config");
       const Json* const info = config != nullptr ? memberOf(*config, "device_info") : nullptr;
       listing.hasVectors = info != nullptr && memberOf(*info, "major_version") != nullptr;
+      if (info != nullptr) listing.firmware = firmwareOf(*info);
     }
     return found;
   });

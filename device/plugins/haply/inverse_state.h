@@ -23,6 +23,7 @@ struct InverseListing {
   bool hasGrip = false;  ///< The service also knows a grip, whose orientation counts as its handle's.
   /// The service speaks JSON format 3.5, whose force is a "vector"; before, it is "values".
   bool hasVectors = false;
+  std::string firmware;  ///< Its version, such as "7.4"; empty if the message does not say it.
 };
 
 /// Reads the devices in the service's first message. Throws PluginError if it is not one.

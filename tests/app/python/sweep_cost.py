@@ -188,7 +188,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--out", type=pathlib.Path, help="table to write; default: to stdout")
     parser.add_argument("--parts", type=int, default=200, help="parts of the scene (%(default)s)")
-    parser.add_argument("--swept", type=int, default=40, help="of these are swept (%(default)s)")
+    parser.add_argument("--swept", type=int, default=10, help="of these are swept (%(default)s)")
     parser.add_argument("--poses", type=int, default=2000, help="(%(default)s)")
     parser.add_argument("--triangles", type=int, default=5000, help="of a part (%(default)s)")
     parser.add_argument("--memory-triangles", type=int, default=200_000, help="of the mesh whose memory is measured (%(default)s)")

@@ -1,6 +1,7 @@
 #include "core/path/certificate.h"
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <sstream>
@@ -97,6 +98,14 @@ TEST(Certificate, IsRefusedWhicheverByteChanges) {
     EXPECT_EQ(refusal(text), "no error");
   }
   EXPECT_NE(refusal(""), "no error");
+}
+
+TEST(Certificate, AFileLargerThanOneCanBeIsNotReadIntoMemory) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("a.nfcert", "{");
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 42U);
+  EXPECT_THAT([&] { static_cast<void>(readCertificateFile(file)); },
+              testing::ThrowsMessage<FileError>(testing::HasSubstr("larger than")));
 }
 
 TEST(Certificate, OneOfVersionOneIsReadAndNamesNoFiles) {

@@ -1,5 +1,6 @@
 #include "ui/panels/feel/hand_choice.h"
 
+#include <QAbstractItemView>
 #include <QAction>
 #include <QApplication>
 #include <QClipboard>
@@ -231,6 +232,9 @@ void HandChoice::listDevices(const QVector<DeviceChoice>& devices) {
     box_->setItemData(row, each.note, Qt::ToolTipRole);
     model->item(row)->setEnabled(each.isUsable);
   }
+  // The list is as wide as its longest name, however narrow the panel is.
+  QAbstractItemView* view = box_->view();
+  view->setMinimumWidth(view->sizeHintForColumn(0) + 2 * view->frameWidth());
 }
 
 void HandChoice::showStatus(const ServoStatus& status) {

@@ -146,6 +146,8 @@ class PartActor {
   std::span<const DetailLevel> levels() const noexcept { return levels_; }
   /// Null if it is drawn in its own colour.
   const std::shared_ptr<const ColouredSurface>& colours() const noexcept { return colours_; }
+  /// The last argument of setColours().
+  bool areColoursStale() const noexcept { return areColoursStale_; }
   bool isKept() const noexcept { return isKept_; }
   /// True until admit(): no picture shows it, or none has yet.
   bool isNew() const noexcept { return isNew_; }

@@ -263,36 +263,125 @@ void addFaceColours(PartShape& shape, const PartGeometry& geometry) {
   }
 }
 
-std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& geometry,
-                                                         const ProgressCallback& progress) {
-  {
-    const std::lock_guard lock(mutex_);
-    const auto found = entries_.find(geometry.get());
-    if (found != entries_.end() && !found->second.geometry.expired()) return found->second.shape;
+PartShape standInFor(const TriangleMesh& mesh) {
+  const Aabb box = mesh.bounds();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> lines;
+  constexpr std::uint32_t kCorners = 8;
+  for (std::uint32_t corner = 0; corner < kCorners; ++corner) {
+    const auto along = [&](std::uint32_t axis) {
+      return ((corner >> axis) & 1U) != 0 ? box.upper[static_cast<int>(axis)]
+                                          : box.lower[static_cast<int>(axis)];
+    };
+    points->InsertNextPoint(along(0), along(1), along(2));
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      const std::uint32_t other = corner | (1U << axis);
+      if (other == corner) continue;
+      const vtkIdType ends[2] = {corner, other};
+      lines->InsertNextCell(2, ends);
+    }
   }
-  // Not under the lock: preparing a large mesh must not hold up drawing another.
+  PartShape shape;
+  shape.surface = vtkSmartPointer<vtkPolyData>::New();
+  shape.surface->SetPoints(points);
+  shape.surface->SetLines(lines);
+  shape.edges = vtkSmartPointer<vtkPolyData>::New();
+  shape.pieces = {shape.surface};
+  shape.levels = {{static_cast<std::size_t>(lines->GetNumberOfCells()), 0.0}};
+  shape.veil = shape.surface;
+  shape.isStandIn = true;
+  return shape;
+}
+
+std::shared_ptr<const PartShape> PartShapeCache::known(const PartGeometryPtr& geometry) const {
+  const auto found = entries_.find(geometry.get());
+  return found != entries_.end() && !found->second.geometry.expired() ? found->second.shape : nullptr;
+}
+
+std::shared_ptr<const PartShape> PartShapeCache::made(const PartGeometryPtr& geometry,
+                                                      const ProgressCallback& progress) {
   const auto shape = std::make_shared<PartShape>(
       makePartShape(geometry->mesh, geometry->report.coordinateRounding, progress));
   addFaceColours(*shape, *geometry);
   // With several components, each may be inside out.
   shape->hidesItsInside =
       geometry->mass.basis == MassBasis::VolumeIntegrals && geometry->mesh.topology().components == 1;
-  const std::lock_guard lock(mutex_);
+  return shape;
+}
+
+void PartShapeCache::keep(const PartGeometryPtr& geometry, std::shared_ptr<const PartShape> shape) {
   // Not for each new entry: that would take the square of their number.
   if (entries_.size() >= nextDrop_) dropUnused();
-  entries_[geometry.get()] = {geometry, shape};
+  entries_[geometry.get()] = {geometry, std::move(shape)};
+}
+
+std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& geometry,
+                                                         const ProgressCallback& progress) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (auto shape = known(geometry)) return shape;
+  }
+  // Not under the lock: preparing a large mesh must not hold up drawing another.
+  auto shape = made(geometry, progress);
+  const std::lock_guard lock(mutex_);
+  keep(geometry, shape);
   return shape;
 }
 
 void PartShapeCache::prepare(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress) {
+  std::vector<PartGeometryPtr> missing;
+  std::size_t triangles = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    dropUnused();
+    for (const PartGeometryPtr& geometry : geometries) {
+      if (known(geometry) != nullptr) continue;
+      missing.push_back(geometry);
+      triangles += geometry->mesh.triangles().size();
+    }
+    if (triangles > kMostAtOnce) {
+      for (const PartGeometryPtr& geometry : missing) {
+        keep(geometry, std::make_shared<const PartShape>(standInFor(geometry->mesh)));
+        postponed_.push_back(geometry);
+      }
+      missing.clear();
+    }
+  }
+  makeAll(missing, progress);
+}
+
+void PartShapeCache::makePostponed(const ProgressCallback& progress) {
+  std::vector<PartGeometryPtr> missing;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const std::weak_ptr<const PartGeometry>& each : postponed_) {
+      PartGeometryPtr geometry = each.lock();
+      if (geometry == nullptr) continue;
+      const auto shape = known(geometry);
+      if (shape == nullptr || shape->isStandIn) missing.push_back(std::move(geometry));
+    }
+  }
+  makeAll(missing, progress);
+  const std::lock_guard lock(mutex_);
+  // Others may have been postponed meanwhile.
+  std::erase_if(postponed_, [this](const std::weak_ptr<const PartGeometry>& each) {
+    const PartGeometryPtr geometry = each.lock();
+    const auto shape = geometry == nullptr ? nullptr : known(geometry);
+    return shape == nullptr || !shape->isStandIn;
+  });
+}
+
+bool PartShapeCache::hasPostponed() const {
+  const std::lock_guard lock(mutex_);
+  return !postponed_.empty();
+}
+
+void PartShapeCache::makeAll(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress) {
   // An empty mesh takes some work too.
   const auto workOf = [](const PartGeometryPtr& geometry) {
     return 1.0 + static_cast<double>(geometry->mesh.triangles().size());
   };
-  {
-    const std::lock_guard lock(mutex_);
-    dropUnused();
-  }
   double whole = 0.0, done = 0.0;
   for (const PartGeometryPtr& geometry : geometries)
     whole += workOf(geometry);
@@ -301,7 +390,11 @@ void PartShapeCache::prepare(std::span<const PartGeometryPtr> geometries, const 
     const auto report = [&](double fraction) {
       return !progress || progress(std::min(1.0, (done + fraction * work) / whole));
     };
-    shapeOf(geometry, report);
+    auto shape = made(geometry, report);
+    {
+      const std::lock_guard lock(mutex_);
+      keep(geometry, std::move(shape));
+    }
     done += work;
     if (!report(0.0)) throw Cancelled();
   }

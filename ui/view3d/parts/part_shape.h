@@ -51,6 +51,8 @@ struct PartShape {
   bool hasOwnColour = true;            ///< False if every triangle has a face's colour.
   /// True if no back face is visible from outside.
   bool hidesItsInside = false;
+  /// True for the outline of a box in place of a mesh that is not prepared yet: nothing of it can be picked.
+  bool isStandIn = false;
 
   /// Returns the finest draft, or the surface if there is none.
   vtkPolyData* finestDraft() const { return drafts.empty() ? surface.Get() : drafts.front().Get(); }
@@ -67,9 +69,16 @@ std::vector<vtkSmartPointer<vtkPolyData>> quickPiecesOf(vtkPolyData& surface);
 PartShape makePartShape(const TriangleMesh& mesh, double coordinateRounding = 0.0,
                         const ProgressCallback& progress = {});
 
+/// Returns the edges of a mesh's box, to be drawn until its shape is made. O(1).
+PartShape standInFor(const TriangleMesh& mesh);
+
 /// Makes the coloured pieces of a shape, one for each of its pieces. Faces in one colour share its number; a geometry
 /// without colours of faces costs nothing.
 void addFaceColours(PartShape& shape, const PartGeometry& geometry);
+
+/// Meshes of so many triangles together are prepared before they are shown, which takes about a tenth of a second; of
+/// more, boxes are shown first.
+constexpr std::size_t kMostAtOnce = 100'000;
 
 /// Caches one shape for each geometry, as long as that geometry exists. Thread-safe: loading
 /// fills it before drawing.
@@ -79,8 +88,13 @@ class PartShapeCache {
   /// triangles. Throws Cancelled.
   std::shared_ptr<const PartShape> shapeOf(const PartGeometryPtr& geometry,
                                            const ProgressCallback& progress = {});
-  /// Builds the missing shapes of all. Throws Cancelled.
+  /// Builds the missing shapes of all, or, if their meshes have more than kMostAtOnce triangles, only what stands in for
+  /// them: until makePostponed() has built them, shapeOf() returns that. Throws Cancelled.
   void prepare(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress);
+  /// Builds the shapes that prepare() has postponed; shapeOf() returns each from then on. Throws Cancelled.
+  void makePostponed(const ProgressCallback& progress = {});
+  /// True if shapes are postponed.
+  bool hasPostponed() const;
 
  private:
   struct Entry {
@@ -88,11 +102,19 @@ class PartShapeCache {
     std::shared_ptr<const PartShape> shape;
   };
   static constexpr std::size_t kFewShapes = 16;
+  /// Builds a shape, whatever the cache has.
+  static std::shared_ptr<const PartShape> made(const PartGeometryPtr& geometry,
+                                               const ProgressCallback& progress);
+  /// Shape of a geometry, or null. To be called under the lock.
+  std::shared_ptr<const PartShape> known(const PartGeometryPtr& geometry) const;
+  void keep(const PartGeometryPtr& geometry, std::shared_ptr<const PartShape> shape);
+  void makeAll(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress);
   void dropUnused();
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::map<const PartGeometry*, Entry> entries_;
   std::size_t nextDrop_ = kFewShapes;  ///< Number of entries at which unused ones are dropped.
+  std::vector<std::weak_ptr<const PartGeometry>> postponed_;
 };
 
 }  // namespace nearfit::ui

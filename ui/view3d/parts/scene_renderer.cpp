@@ -26,6 +26,18 @@ void SceneRenderer::setScene(const Scene& scene) {
   applyAll();
 }
 
+bool SceneRenderer::takeNewShapes() {
+  const std::uint64_t before = revision_;
+  applyAll();
+  return revision_ != before;
+}
+
+void SceneRenderer::makeShapes() {
+  if (!shapes_->hasPostponed()) return;
+  shapes_->makePostponed();
+  takeNewShapes();
+}
+
 void SceneRenderer::setSelected(std::vector<PartId> parts) {
   selected_ = std::move(parts);
   std::ranges::sort(selected_);
@@ -130,8 +142,12 @@ PartActor& SceneRenderer::actorOf(const Part& part) {
   if (actor == nullptr || &actor->shape() != shape.get()) {
     letGoOfKept();
     ++revision_;
+    const bool wasStandIn = actor != nullptr && actor->shape().isStandIn;
+    const auto colours = wasStandIn ? actor->colours() : nullptr;
+    const bool areStale = wasStandIn && actor->areColoursStale();
     actor = std::make_unique<PartActor>(renderer_, mappers_.mappersOf(shape), over_);
     actor->setPose(poses_.shownPoseOf(part));
+    if (colours != nullptr) actor->setColours(colours, areStale);
   }
   return *actor;
 }

@@ -55,6 +55,10 @@ class SceneRenderer {
                 vtkRenderer* over = nullptr);
 
   void setScene(const Scene& scene);
+  /// Draws the shapes that have been made in place of what stood in for them. Returns false if there is none.
+  bool takeNewShapes();
+  /// Makes those that are still missing first: for a picture that must show all.
+  void makeShapes();
   void setSelected(std::vector<PartId> parts);
   /// Shows parts through others without their being selected.
   void setHighlighted(std::vector<PartId> parts);

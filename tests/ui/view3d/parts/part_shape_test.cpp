@@ -67,6 +67,8 @@ class PartShapeTest : public QObject {
   void manyShapesAreKeptWhileTheirGeometriesExist();
   void unusedShapesAreNotLookedForAtEachNewOne();
   void threadsMayAskAtOnce();
+  void muchToPrepareIsPostponedBehindBoxes();
+  void aPostponedShapeOfWhatIsGoneIsNotMade();
   void theFinestDraftKeepsHolesAndTheSilhouette();
 };
 
@@ -300,6 +302,56 @@ void PartShapeTest::threadsMayAskAtOnce() {
     thread.join();
   for (const vtkIdType count : polygons)
     QCOMPARE(count, vtkIdType{20} * 64);
+}
+
+void PartShapeTest::muchToPrepareIsPostponedBehindBoxes() {
+  ui::PartShapeCache cache;
+  const std::array few{geometryOf(test::boxMesh(glm::dvec3(1.0)))};
+  cache.prepare(few, {});
+  QVERIFY(!cache.hasPostponed());
+  QVERIFY(!cache.shapeOf(few[0])->isStandIn);
+
+  const std::array many{geometryOf(test::icosphereMesh(1.0, 6)), geometryOf(test::icosphereMesh(2.0, 5)),
+                        few[0]};
+  QVERIFY(many[0]->mesh.triangles().size() + many[1]->mesh.triangles().size() > ui::kMostAtOnce);
+  cache.prepare(many, {});
+  QVERIFY(cache.hasPostponed());
+  QVERIFY(!cache.shapeOf(few[0])->isStandIn);
+  const auto box = cache.shapeOf(many[1]);
+  QVERIFY(box->isStandIn);
+  QCOMPARE(box->surface->GetNumberOfLines(), vtkIdType{12});
+  QCOMPARE(box->surface->GetNumberOfPolys(), vtkIdType{0});
+  double bounds[6];
+  box->surface->GetBounds(bounds);
+  const Aabb expected = many[1]->mesh.bounds();
+  for (int axis = 0; axis < 3; ++axis) {
+    QCOMPARE(bounds[2 * axis], expected.lower[axis]);
+    QCOMPARE(bounds[2 * axis + 1], expected.upper[axis]);
+  }
+  QVERIFY(!box->rays.firstHit({0.0, 0.0, 5.0}, {0.0, 0.0, -5.0}));
+
+  cache.makePostponed();
+  QVERIFY(!cache.hasPostponed());
+  for (const PartGeometryPtr& geometry : many) {
+    QVERIFY(!cache.shapeOf(geometry)->isStandIn);
+    QCOMPARE(cache.shapeOf(geometry)->surface->GetNumberOfPolys(),
+             static_cast<vtkIdType>(geometry->mesh.triangles().size()));
+  }
+}
+
+void PartShapeTest::aPostponedShapeOfWhatIsGoneIsNotMade() {
+  ui::PartShapeCache cache;
+  {
+    const std::array large{geometryOf(test::icosphereMesh(1.0, 7))};
+    cache.prepare(large, {});
+  }
+  bool isAnyWork = false;
+  cache.makePostponed([&](double) {
+    isAnyWork = true;
+    return true;
+  });
+  QVERIFY(!isAnyWork);
+  QVERIFY(!cache.hasPostponed());
 }
 
 NEARFIT_QT_SUITE(PartShapeTest, test::runQtTest<PartShapeTest, QCoreApplication>)

@@ -28,6 +28,7 @@ class SceneRendererTest : public QObject {
   void boundsOfAPartAreThoseInTheWorld();
   void edgesThatWouldCoverAPartAreLeftOut();
   void aSelectedPartIsTintedByTheVeilOfItsShape();
+  void aShapeTakesThePlaceOfItsBoxWithItsColours();
   void aPartIsAddedWithoutASearchThroughAllOthers();
   void newPartsBeyondALimitAreHeldBackAndAdmittedShapeByShape();
   void outlinesBesideAMapStandOutAndFollowTheTheme();
@@ -223,6 +224,35 @@ void SceneRendererTest::aSelectedPartIsTintedByTheVeilOfItsShape() {
   QCOMPARE(veils, 1);
   parts.setSelected({});
   QCOMPARE(over->GetActors()->GetNumberOfItems(), 0);
+}
+
+void SceneRendererTest::aShapeTakesThePlaceOfItsBoxWithItsColours() {
+  auto geometry = std::make_shared<PartGeometry>();
+  geometry->mesh = test::icosphereMesh(0.02, 7);
+  Part ball = partOf("ball");
+  ball.geometry = geometry;
+  Scene scene;
+  const PartId id = scene.add(ball);
+  const auto shapes = std::make_shared<ui::PartShapeCache>();
+  shapes->prepare(scene.geometries(), {});
+  vtkNew<vtkRenderer> renderer;
+  ui::SceneRenderer parts(*renderer.Get(), shapes, poses_);
+  parts.setScene(scene);
+  double boxed[6], whole[6];
+  QVERIFY(parts.boundsOf(id, boxed));
+  ui::ColouredSurface surface;
+  surface.range = 0.01;
+  const auto colours = std::make_shared<const ui::ColouredSurface>(surface);
+  parts.setColours({{id, colours}}, true);
+  QVERIFY(parts.find(id)->shape().isStandIn);
+  QVERIFY(!parts.takeNewShapes());
+  parts.makeShapes();
+  QVERIFY(!parts.find(id)->shape().isStandIn);
+  QCOMPARE(parts.find(id)->colours().get(), colours.get());
+  QVERIFY(parts.find(id)->areColoursStale());
+  QVERIFY(parts.boundsOf(id, whole));
+  for (int i = 0; i < 6; ++i)
+    QVERIFY(std::abs(boxed[i] - whole[i]) < 1e-6);
 }
 
 /// In the dark theme they were nearly as dark as the background.
