@@ -1,5 +1,6 @@
 // A minute of contact with each model, while the hand moves on the floor. With nothing else on the machine the answer to a
 // pose has to be on its way within 200 us.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/makers/maker_contact.h"
@@ -18,6 +19,11 @@ class MakerContactForAMinute : public testing::TestWithParam<test::MakerModel> {
 TEST_P(MakerContactForAMinute, StaysStableGivesNoEnergyAndAnswersInTime) {
   test::MakerBench bench(GetParam());
   const test::ContactOutcome felt = test::pressOnFloor(bench, kMinute, SafetyLimits{});
+  const auto microseconds = [&felt](double fraction) { return 1e6 * felt.roundTrip.percentile(fraction); };
+  // For contact_figures.py.
+  fmt::print("figures,{},{},{},{:.1f},{:.1f},{:.1f},{:.1f},{:.3g}\n", GetParam().name, GetParam().rate,
+             felt.roundTrip.count(), microseconds(0.5), microseconds(0.99), microseconds(0.999),
+             1e6 * felt.roundTrip.max(), felt.maxEnergyGiven);
   ASSERT_TRUE(felt.wasReady && felt.wasFelt) << felt.note;
   EXPECT_TRUE(felt.cameToRest && felt.wasLetGo) << felt.note;
   EXPECT_EQ(felt.note, "");

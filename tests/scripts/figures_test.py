@@ -300,6 +300,14 @@ class FirstArrival(Folder):
         self.write("tests/stress/results/hours_springs.csv",
                    "mode,ticks,force drift N,growth bytes\n" + "".join(f"{m},3600000,0,0\n" for m in modes))
 
+    def test_make_the_table_of_makers_stand_ins_once_its_file_is_there(self):
+        self.write("tests/makers/results/contact.csv",
+                   "model,rate_hz,samples,p50_us,p99_us,p99_9_us,max_us,max_energy_j\nTouch,1000,60000,40,120,180,900,2.5e-06\n"
+                   "Omega3,4000,240000,30,250,300,1900,1e-07\n")
+        made = self.make("maker contact")
+        self.assertIn("| Touch | 1,000 Hz | 60,000 | 40 us | 120 us | 180 us | 900 us | 2.5 uJ | met (p99 200 us) |", made)
+        self.assertIn("| Omega3 | 4,000 Hz | 240,000 | 30 us | 250 us | 300 us | 1.9 ms | 0.1 uJ | **missed** (p99 200 us) |", made)
+
     def test_make_the_tables_of_python_and_sweeps_once_their_files_are_there(self):
         measured = {"cold_minima": (12345, "1", ""), "cold_cpp_us": (10, "us", ""), "cold_python_us": (11, "us", ""),
                     "cold_python_over_cpp": (1.1, "1", 1.05), "cold_python_all_processors_us": (6, "us", ""),

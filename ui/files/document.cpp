@@ -36,11 +36,7 @@ namespace {
 constexpr std::chrono::milliseconds kBetweenShapes{200};
 
 /// Share of loading spent on reading; the rest builds shapes.
-constexpr double kReadingMeshes = 0.45, kReadingDocuments = 0.85;
-
-constexpr double shareOf(Reading what) {
-  return what == Reading::Documents ? kReadingDocuments : kReadingMeshes;
-}
+constexpr double kReading = 0.9;
 
 /// Where no file is without a unit, it is not used [m].
 constexpr double kAnyUnit = 1e-3;
@@ -183,14 +179,12 @@ Failure notLoaded(const QStringList& files, QVector<FailedItem> problems, bool i
 
 }  // namespace
 
-ProgressCallback progressOfReading(const ProgressCallback& whole, Reading what) {
-  const double share = shareOf(what);
-  return [whole, share](double fraction) { return !whole || whole(share * fraction); };
+ProgressCallback progressOfReading(const ProgressCallback& whole) {
+  return [whole](double fraction) { return !whole || whole(kReading * fraction); };
 }
 
-ProgressCallback progressOfShapes(const ProgressCallback& whole, Reading what) {
-  const double share = shareOf(what);
-  return [whole, share](double fraction) { return !whole || whole(share + (1.0 - share) * fraction); };
+ProgressCallback progressOfShapes(const ProgressCallback& whole) {
+  return [whole](double fraction) { return !whole || whole(kReading + (1.0 - kReading) * fraction); };
 }
 
 Document::Document(Session& session, std::shared_ptr<PartShapeCache> shapes, QWidget* window)
@@ -451,12 +445,9 @@ void Document::loadParts(const QStringList& files, const PartReading& reading, T
   if (isBusy() || files.isEmpty()) return;
   Preferences::rememberFolderOf(files.first());
   auto outcome = std::make_shared<LoadedFiles>();
-  const bool isAnyDocument =
-      std::ranges::any_of(files, [](const QString& file) { return isDocumentFile(toPath(file)); });
-  const Reading what = isAnyDocument ? Reading::Documents : Reading::Meshes;
-  const auto job = [outcome, files, reading, what, shapes = shapes_](const ProgressCallback& progress) {
-    *outcome = loadFiles(files, reading, progressOfReading(progress, what));
-    shapes->prepare(outcome->geometries(), progressOfShapes(progress, what));
+  const auto job = [outcome, files, reading, shapes = shapes_](const ProgressCallback& progress) {
+    *outcome = loadFiles(files, reading, progressOfReading(progress));
+    shapes->prepare(outcome->geometries(), progressOfShapes(progress));
   };
   const QString name =
       files.size() == 1 ? QFileInfo(files.first()).fileName() : tr("%n files", nullptr, files.size());

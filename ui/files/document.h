@@ -141,11 +141,9 @@ class Document : public SceneWork {
   std::vector<std::function<void(bool isReady)>> waiting_;  ///< Unanswered prepareHierarchies() calls.
 };
 
-/// Kind of files that are read before shapes are built of them, which decides how long it takes.
-enum class Reading { Meshes, Documents };
-/// Map the progress of reading, and of building shapes, to shares of `whole`: about half each for meshes. Documents are
-/// imported and meshed first, which takes most of the time.
-ProgressCallback progressOfReading(const ProgressCallback& whole, Reading what = Reading::Meshes);
-ProgressCallback progressOfShapes(const ProgressCallback& whole, Reading what = Reading::Meshes);
+/// Map the progress of reading, and of building shapes, to shares of `whole`. Reading takes most of the time: shapes of more
+/// than a tenth of a second are built later.
+ProgressCallback progressOfReading(const ProgressCallback& whole);
+ProgressCallback progressOfShapes(const ProgressCallback& whole);
 
 }  // namespace nearfit::ui

@@ -277,16 +277,13 @@ void PartFiles::load(const ProgressText& text, const std::vector<Wanted>& wanted
   }
   if (sources.empty()) return;
   auto loaded = std::make_shared<std::vector<LoadedPart>>();
-  const bool isAnyDocument =
-      std::ranges::any_of(sources, [](const MeshSource& source) { return !source.shape.empty(); });
-  const Reading what = isAnyDocument ? Reading::Documents : Reading::Meshes;
-  const auto job = [loaded, sources, what, shapes = document_.shapes()](const ProgressCallback& progress) {
-    *loaded = loadPartGeometries(sources, progressOfReading(progress, what));
+  const auto job = [loaded, sources, shapes = document_.shapes()](const ProgressCallback& progress) {
+    *loaded = loadPartGeometries(sources, progressOfReading(progress));
     std::vector<PartGeometryPtr> geometries;
     for (const LoadedPart& part : *loaded) {
       if (part.geometry) geometries.push_back(part.geometry);
     }
-    shapes->prepare(geometries, progressOfShapes(progress, what));
+    shapes->prepare(geometries, progressOfShapes(progress));
   };
   document_.load(text.title, text.text, job, [=, this](const std::exception_ptr& error) {
     if (isCancelled(error)) return emit noted(tr("Cancelled. No part was changed."));

@@ -21,7 +21,7 @@ constexpr std::size_t kSmall = 20'000;
 constexpr std::size_t kBudgetAtRest = 1'000'000;
 /// Drawn whole while a part is felt in the Balanced quality: some 50 ms in software OpenGL [triangles].
 constexpr std::size_t kBalanced = 150'000;
-constexpr std::size_t kFirstBudget = 80'000, kMinBudget = 30'000, kMaxBudget = 50'000'000;
+constexpr std::size_t kFirstBudget = 60'000, kMinBudget = 30'000, kMaxBudget = 50'000'000;
 /// A picture that takes longer is drawn coarser next time, one that takes less finer [ms]. Software OpenGL
 /// needs another 10 ms to bring it to the screen.
 constexpr qint64 kSlow = 36, kQuick = 15;

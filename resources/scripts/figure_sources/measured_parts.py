@@ -180,6 +180,12 @@ def _draw_limit(setting):
     return [Step([PYTHON, str(setting.root / "tests" / "stress" / "plot_limit.py"), str(folder / "limit.csv"), str(folder / "limit.png")])]
 
 
+def _maker_contact(setting):
+    csv = setting.results / "makers" / "results" / "contact.csv"
+    return [Step([PYTHON, str(setting.root / "tests" / "makers" / "contact_figures.py"), "--program",
+                  str(setting.bin / "maker_stress_tests"), "--csv", str(csv), *_busy(setting)], may_miss=True)]
+
+
 def _evidence(setting):
     results = setting.results / "evidence" / "results"
     return [Step([PYTHON, str(setting.root / "tests" / "evidence" / "run"), "--models", str(setting.shared / "models" / "public"), "--bin",
@@ -242,6 +248,7 @@ PARTS = (
     _stress_part("limit-springs", 2, "--mode", SPRINGS, may_miss=True),
     _stress_part("hours-springs", 2, "--mode", SPRINGS, "--hours", "1", may_miss=True),
     _stress_part("oracle", 2, "--poses", "500000", "--threads", "2", file="oracle.txt"),
+    Part("maker-contact", 10, ("makers/results/contact.csv",), _maker_contact, program="maker_stress_tests", is_apart=True),
     Part("window-hour", 63, ("bench/results/window_hour.csv",), _hour, ("bench/results/window_hour.png",),
          program="nearfit-bench-window", command="hour", is_apart=True),
 )

@@ -131,7 +131,27 @@ def million_ticks(results):
     return n.time(table.number("p99_us", scene="organic-1m", method="nearfit-tracked"))
 
 
+MAKER_CONTACT = "tests/makers/results/contact.csv"
+# Round trip at p99 [us].
+MAX_MAKER_ROUND_TRIP = 200.0
+
+
+@c.needs(MAKER_CONTACT, command="resources/scripts/measure --parts maker-contact")
+def maker_contact(results):
+    table = results.table(MAKER_CONTACT)
+    rows = []
+    for row in table.where():
+        p99 = float(row["p99_us"])
+        said = f"{'met' if p99 <= MAX_MAKER_ROUND_TRIP else '**missed**'} (p99 {n.time(MAX_MAKER_ROUND_TRIP)})"
+        rows.append([row["model"], f"{n.count(float(row['rate_hz']))} Hz", n.count(float(row["samples"])),
+                     *(n.time(float(row[column])) for column in ("p50_us", "p99_us", "p99_9_us", "max_us")),
+                     f"{n.plain(1e6 * float(row['max_energy_j']))} uJ", said])
+    return n.table([f"model, on machine {c.machine_letter(table)}", "rate", "poses", "p50", "p99", "p99.9", "max", "energy given", "goal"],
+                   rows)
+
+
 FIGURES = {
+    "maker contact": maker_contact,
     "stress results": stress, "limit without rendered damping": limit_without, "limit with rendered damping": limit_with,
     "round trip": round_trip, "load of the round trip": round_trip_load, "friction": friction,
     "at rest": at_rest, "drag of the nut": drag_of_the_nut, "most energy": most_energy, "ball in bowl": ball_in_bowl,

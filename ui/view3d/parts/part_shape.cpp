@@ -349,6 +349,7 @@ void PartShapeCache::prepare(std::span<const PartGeometryPtr> geometries, const 
     }
   }
   makeAll(missing, progress);
+  if (progress && !progress(1.0)) throw Cancelled();
 }
 
 void PartShapeCache::makePostponed(const ProgressCallback& progress) {
