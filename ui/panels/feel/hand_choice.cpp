@@ -14,6 +14,7 @@
 #include <QStandardItemModel>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "core/scene/haptic_limits.h"
 #include "ui/panels/feel/locks_page.h"
@@ -24,6 +25,8 @@
 namespace nearfit::ui {
 namespace {
 
+/// What the style takes beside icon and name of an item of the list [pixels]. The view's own hint of the size is too small.
+constexpr int kRoomOfAnItem = 50;
 constexpr int kDeviceRole = Qt::UserRole + 1, kNoteRole = Qt::UserRole + 2;
 /// The scripted hand, the manual hand and the recording are always there.
 constexpr int kScripted = 0, kManual = 1, kRecording = 2, kFirstDevice = 3;
@@ -233,8 +236,10 @@ void HandChoice::listDevices(const QVector<DeviceChoice>& devices) {
     model->item(row)->setEnabled(each.isUsable);
   }
   // The list is as wide as its longest name, however narrow the panel is.
-  QAbstractItemView* view = box_->view();
-  view->setMinimumWidth(view->sizeHintForColumn(0) + 2 * view->frameWidth());
+  int widest = 0;
+  for (int row = 0; row < box_->count(); ++row)
+    widest = std::max(widest, box_->fontMetrics().horizontalAdvance(box_->itemText(row)));
+  box_->view()->setMinimumWidth(widest + box_->iconSize().width() + kRoomOfAnItem);
 }
 
 void HandChoice::showStatus(const ServoStatus& status) {
