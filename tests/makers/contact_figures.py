@@ -26,12 +26,7 @@ def main():
     parser.add_argument("--csv", type=pathlib.Path, required=True, help="file for the results")
     parser.add_argument("--allow-busy", action="store_true", help="measure although other programs run; the results say so")
     options = parser.parse_args()
-    at_work = heads.others_at_work()
-    try:
-        heads.check_repeatable(options.csv, ROOT, at_work, options.allow_busy)
-    except heads.NotRepeatable as refusal:
-        sys.exit(f"contact_figures.py: {refusal}")
-    head = heads.head(ROOT, options.program.resolve().parents[1], at_work)
+    head = heads.head_or_exit("contact_figures.py", options.csv, ROOT, options.program.resolve().parents[1], options.allow_busy)
     result = subprocess.run([options.program], capture_output=True, text=True)
     print(result.stdout)
     rows = [line.removeprefix("figures,") for line in result.stdout.splitlines() if line.startswith("figures,")]

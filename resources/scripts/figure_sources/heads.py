@@ -93,6 +93,16 @@ def _compiler(build):
     return "unknown"
 
 
+def head_or_exit(script, file, root, build, allows_busy):
+    """head() of a run that is about to begin; ends the program, with its name, if check_repeatable() refuses `file`."""
+    at_work = others_at_work()
+    try:
+        check_repeatable(file, root, at_work, allows_busy)
+    except NotRepeatable as refusal:
+        sys.exit(f"{script}: {refusal}")
+    return head(root, build, at_work)
+
+
 def head(root, build, at_work):
     """Lines of a head, without "# "."""
     cpu = pathlib.Path("/proc/cpuinfo").read_text()

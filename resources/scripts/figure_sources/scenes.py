@@ -107,12 +107,12 @@ READ_BACK = "tests/app/results/read_back.csv"
 
 @c.needs(READ_BACK, command="tests/app/export/read_back.py")
 def read_back(results):
-    rows = []
-    for row in results.table(READ_BACK).where():
+    table, rows = results.table(READ_BACK), []
+    for row in table.where():
         errors = f"{row['validator_errors']} errors, {row['validator_warnings']} warnings ({row['validator']})" if row["validator"] else "none"
         rows.append([f"`.{row['format']}`", row["reader"], row["parts"], row["names_equal"], row["max_pose_error"], row["colours_differing"],
                      row["shapes_not_shared"], errors, "right" if row["right"] == "yes" else "**not right**"])
-    writers = ", ".join(sorted({f"{row['writer']} at `{results.table(READ_BACK).head['revision']}`" for row in results.table(READ_BACK).where()}))
+    writers = ", ".join(sorted({f"{row['writer']} at `{table.head['revision']}`" for row in table.where()}))
     return n.table([f"format, written by {writers}", "read by", "parts", "names equal", "poses off by at most", "colours that differ",
                     "shapes not shared", "validator", "outcome"], rows, right_from=9)
 

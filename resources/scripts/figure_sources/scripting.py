@@ -2,11 +2,11 @@
 
 import common as c
 import numbers_text as n
+from scenes import UNITS
 
 PYTHON = "tests/app/results/python.csv"
 SWEEP_COST = "tests/app/results/sweep_cost.csv"
-SECONDS = {"us": 1.0, "ms": 1e3, "s": 1e6, "h": 3.6e9}
-# What is measured, and whether it is a time or a factor.
+# Measures of bench.py, with words for each.
 MEASURES = (
     ("cold_cpp_us", "cold `lmds`, time of a pose in C++"),
     ("cold_python_us", "the same from Python, one thread"),
@@ -21,7 +21,7 @@ MEASURES = (
 
 
 def _value(value, unit):
-    return n.time(SECONDS[unit] * value) if unit in SECONDS else n.times(value)
+    return n.time(UNITS[unit] * value) if unit in UNITS else n.times(value)
 
 
 @c.needs(PYTHON)
@@ -39,8 +39,8 @@ def python_package(results):
 
 
 def _quantity(value, unit):
-    if unit in ("us", "ms", "s"):
-        return n.time(SECONDS[unit] * value)
+    if unit in UNITS:
+        return n.time(UNITS[unit] * value)
     if not unit:
         return n.count(value)
     return n.times(value) if unit.startswith("times") else f"{n.plain(value)} {unit}"

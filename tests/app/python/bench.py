@@ -141,13 +141,8 @@ def wheel_seconds(folder):
 
 def main():
     options = arguments()
-    at_work = heads.others_at_work()
-    try:
-        heads.check_repeatable(options.csv, ROOT, at_work, options.allow_busy)
-    except heads.NotRepeatable as refusal:
-        sys.exit(f"bench.py: {refusal}")
     # The head tells of the state before the run.
-    head = heads.head(ROOT, options.bench.resolve().parents[1], at_work)
+    head = heads.head_or_exit("bench.py", options.csv, ROOT, options.bench.resolve().parents[1], options.allow_busy)
     with tempfile.TemporaryDirectory() as folder:
         found = measured(options, pathlib.Path(folder))
     out = io.StringIO()

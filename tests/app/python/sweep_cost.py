@@ -205,12 +205,7 @@ def main():
     if options.memory is not None:
         print_memory(options.memory)
         return
-    at_work = heads.others_at_work()
-    try:
-        heads.check_repeatable(options.out, ROOT, at_work, options.allow_busy)
-    except heads.NotRepeatable as e:
-        sys.exit(f"sweep_cost: {e}")
-    head = heads.head(ROOT, options.build, at_work)
+    head = heads.head_or_exit("sweep_cost", options.out, ROOT, options.build, options.allow_busy)
     table = Table()
     scene, side = grid(options.parts, sphere(options.triangles))
     poses = poses_within(options.poses, side)

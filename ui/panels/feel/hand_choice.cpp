@@ -25,7 +25,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// What the style takes beside icon and name of an item of the list [pixels]. The view's own hint of the size is too small.
+/// Room for margins beside the icon and name of an item in the list [pixels]; the view's own size hint is too small.
 constexpr int kRoomOfAnItem = 50;
 constexpr int kDeviceRole = Qt::UserRole + 1, kNoteRole = Qt::UserRole + 2;
 /// The scripted hand, the manual hand and the recording are always there.
