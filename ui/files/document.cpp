@@ -35,6 +35,11 @@ namespace {
 /// Between pictures that show more shapes instead of boxes: some of them a second, and time for the making.
 constexpr std::chrono::milliseconds kBetweenShapes{200};
 
+/// After a document has been loaded, and after the next work that a dialog shows has begun, until shapes are made instead of
+/// boxes. Hierarchies of a million triangles come from the cache within it, if they have the processors to themselves; where
+/// work takes longer, boxes should not stay for all of it.
+constexpr std::chrono::milliseconds kBeforeShapes{300};
+
 /// Share of loading spent on reading; the rest builds shapes.
 constexpr double kReading = 0.9;
 
@@ -196,6 +201,9 @@ Document::Document(Session& session, std::shared_ptr<PartShapeCache> shapes, QWi
     if (!shaped_.isActive()) shaped_.start();
   });
   connect(&shaped_, &QTimer::timeout, this, &Document::shapesMade);
+  shapesWait_.setSingleShot(true);
+  shapesWait_.setInterval(kBeforeShapes);
+  connect(&shapesWait_, &QTimer::timeout, this, &Document::makePostponedShapes);
 }
 
 Document::~Document() = default;
@@ -205,7 +213,7 @@ void Document::load(const QString& title, const QString& text, BackgroundTask::J
   const auto ended = [this, done = std::move(done)](const std::exception_ptr& error) {
     emit busyChanged();
     done(error);
-    makePostponedShapes();
+    shapesWait_.start();
     prepareNext();
   };
   const auto behindTheView = [job = std::move(job)](const ProgressCallback& progress) {
@@ -213,6 +221,8 @@ void Document::load(const QString& title, const QString& text, BackgroundTask::J
     lowerThreadPriority();
     job(progress);
   };
+  shaping_.cancel();
+  shapesWait_.start();
   runWithDialog(task_, title, text, window_, behindTheView, ended);
   emit busyChanged();
 }
@@ -225,6 +235,8 @@ void Document::makePostponedShapes() {
     shapes->makePostponed(progress);
   };
   shaping_.run(job, [this](const std::exception_ptr& error) {
+    // It starts again, and then shows what this one has made as well.
+    if (isCancelled(error)) return;
     shaped_.stop();
     emit shapesMade();
     if (error) return emit failed(describe(tr("Some parts cannot be drawn."), error));

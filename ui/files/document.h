@@ -78,6 +78,8 @@ class Document : public SceneWork {
   void load(const QString& title, const QString& text, BackgroundTask::Job job,
             std::function<void(std::exception_ptr)> done);
   void prepareHierarchies(std::function<void(bool isReady)> done) override;
+  /// False as long as boxes are shown for parts whose shapes are still to be made.
+  bool hasAllShapes() const { return !shapes_->hasPostponed(); }
   /// Saves to the session's file, or asks for one if it has none. False if nothing was written.
   bool save();
   /// Asks for a file and saves to it. False if nothing was written.
@@ -136,7 +138,7 @@ class Document : public SceneWork {
   std::shared_ptr<PartShapeCache> shapes_;
   QWidget* window_;
   BackgroundTask task_, shaping_;
-  QTimer shaped_;
+  QTimer shaped_, shapesWait_;
   std::map<QString, double> chosenUnits_;                   ///< In this run, by folder and by ".type" [m].
   std::vector<std::function<void(bool isReady)>> waiting_;  ///< Unanswered prepareHierarchies() calls.
 };

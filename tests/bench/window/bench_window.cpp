@@ -109,7 +109,7 @@ void BenchWindow::settle() {
   const double start = milliseconds();
   int before = -1;
   while (std::exchange(before, view().pictureCount()) != view().pictureCount() ||
-         !view().detail().isSettled()) {
+         !view().detail().isSettled() || !application_->window().document().hasAllShapes()) {
     if (milliseconds() - start > kPatience) throw Error("window", "it draws without end");
     run(kWhile);
   }
