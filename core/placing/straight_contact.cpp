@@ -15,8 +15,8 @@ namespace {
 constexpr std::uint64_t kBetweenCalls = 2048;
 
 struct EntryPairAt {
-  double travel;  ///< The pair is apart before this [m].
-  SweptEntry scene, part;
+  double travel;                   ///< The pair is apart before this [m].
+  const SweptEntry *scene, *part;  ///< Kept by the sweep.
   bool operator<(const EntryPairAt& other) const noexcept { return travel > other.travel; }
 };
 
@@ -49,14 +49,14 @@ class Search {
  private:
   void add(const SweptEntry& s, const SweptEntry& p) {
     const std::optional<SweepStretch> meeting = sweep_.meeting(s.box, p.box, direction_, within_);
-    if (meeting && meeting->from < within_) waiting_.push({meeting->from, s, p});
+    if (meeting && meeting->from < within_) waiting_.push({meeting->from, &s, &p});
   }
 
   void open(const EntryPairAt& pair) {
-    if (NormalConeTree::isLeaf(pair.scene.child) && NormalConeTree::isLeaf(pair.part.child)) {
-      test(NormalConeTree::leafIndex(pair.scene.child), NormalConeTree::leafIndex(pair.part.child));
+    if (NormalConeTree::isLeaf(pair.scene->child) && NormalConeTree::isLeaf(pair.part->child)) {
+      test(NormalConeTree::leafIndex(pair.scene->child), NormalConeTree::leafIndex(pair.part->child));
     } else {
-      openLarger(sweep_, pair.scene, pair.part,
+      openLarger(sweep_, *pair.scene, *pair.part,
                  [this](const SweptEntry& s, const SweptEntry& p) { add(s, p); });
     }
   }

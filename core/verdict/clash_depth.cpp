@@ -102,6 +102,7 @@ class WayOut {
     end_ = {};
     blocking_ = {};
     waiting_ = {};
+    normals_.clear();
     for (const SweptEntry& s : sweep_.sceneChildren(0)) {
       for (const SweptEntry& p : sweep_.partChildren(0))
         add(s, p);
@@ -138,10 +139,11 @@ class WayOut {
   /// A pair of entries, or of triangles, with the range of the way that it may block, or blocks.
   struct Blocker {
     SweepStretch stretch;
-    SweptEntry scene, part;
-    bool isExact = false;  ///< The entries are triangles; the range is theirs.
-    glm::dvec3 normal{0.0};
+    const SweptEntry *scene, *part;  ///< Kept by the sweep.
+    std::uint32_t exact =
+        kNotExact;  ///< Index of the normal, if the entries are triangles and the range is theirs.
   };
+  static constexpr std::uint32_t kNotExact = std::numeric_limits<std::uint32_t>::max();
   struct EndsLast {
     bool operator()(const Blocker& a, const Blocker& b) const noexcept { return a.stretch.to < b.stretch.to; }
   };
@@ -153,7 +155,7 @@ class WayOut {
 
   void add(const SweptEntry& s, const SweptEntry& p) {
     const std::optional<SweepStretch> stretch = sweep_.meeting(s.box, p.box, direction_, within_);
-    if (stretch) add({*stretch, s, p});
+    if (stretch) add({*stretch, &s, &p});
   }
   void add(const Blocker& blocker) {
     if (!(blocker.stretch.to > reach_)) return;
@@ -170,7 +172,7 @@ class WayOut {
         return;
       }
       blocking_.pop();
-      if (top.isExact) {
+      if (top.exact != kNotExact) {
         block(top);
       } else {
         open(top);
@@ -181,8 +183,8 @@ class WayOut {
   void block(const Blocker& pair) {
     reach_ = pair.stretch.to;
     end_.blockedTo = reach_;
-    end_.normal = pair.normal;
-    const TriangleCorners fixed = sceneCorners(pair.scene), moving = partCorners(pair.part);
+    end_.normal = normals_[pair.exact];
+    const TriangleCorners fixed = sceneCorners(*pair.scene), moving = partCorners(*pair.part);
     end_.faceNormals = {normalOf(fixed), -normalOf(moving)};
     for (std::size_t i = 0; i < 2; ++i) {
       const glm::dvec3& n = end_.faceNormals[i];
@@ -195,14 +197,16 @@ class WayOut {
 
   void open(const Blocker& pair) {
     if (++nodePairs_ % kBetweenLooks == 0 && limits_.goOn && !limits_.goOn()) isStopped_ = true;
-    if (!NormalConeTree::isLeaf(pair.scene.child) || !NormalConeTree::isLeaf(pair.part.child)) {
-      openLarger(sweep_, pair.scene, pair.part,
+    if (!NormalConeTree::isLeaf(pair.scene->child) || !NormalConeTree::isLeaf(pair.part->child)) {
+      openLarger(sweep_, *pair.scene, *pair.part,
                  [this](const SweptEntry& s, const SweptEntry& p) { add(s, p); });
       return;
     }
     const TriangleSweep found =
-        sweepTriangles(sceneCorners(pair.scene), partCorners(pair.part), direction_, within_);
-    if (!found.stretch.isEmpty()) add({found.stretch, pair.scene, pair.part, true, found.lastNormal});
+        sweepTriangles(sceneCorners(*pair.scene), partCorners(*pair.part), direction_, within_);
+    if (found.stretch.isEmpty() || !(found.stretch.to > reach_)) return;
+    normals_.push_back(found.lastNormal);
+    add({found.stretch, pair.scene, pair.part, static_cast<std::uint32_t>(normals_.size() - 1)});
   }
 
   TriangleCorners sceneCorners(const SweptEntry& leaf) const {
@@ -246,6 +250,7 @@ class WayOut {
   glm::dvec3 direction_{0.0};
   double within_ = 0.0, reach_ = 0.0;
   WayEnd end_;
+  std::vector<glm::dvec3> normals_;  ///< Of the planes in which pairs of triangles part.
   std::priority_queue<Blocker, std::vector<Blocker>, EndsLast> blocking_;
   std::priority_queue<Blocker, std::vector<Blocker>, BeginsFirst> waiting_;
 };

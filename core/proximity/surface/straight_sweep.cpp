@@ -80,14 +80,23 @@ bool lookAll(AxisSearch& search, const SweptSides& a, const SweptSides& b) noexc
   return true;
 }
 
-double radiusAlong(const SweptBox& box, const glm::dvec3& axis) noexcept {
-  const glm::dvec3 along = axis * box.axes;
-  return box.half.x * std::abs(along.x) + box.half.y * std::abs(along.y) + box.half.z * std::abs(along.z);
-}
-
 bool hasFaces(std::uint32_t child) noexcept {
   if (child == NormalConeTree::kNoChild) return false;
   return !NormalConeTree::isLeaf(child) || NormalConeTree::leafKind(child) == FeatureKind::Face;
+}
+
+std::vector<SweptEntry> childrenOf(const NormalConeTree& tree, std::uint32_t node) {
+  std::vector<SweptEntry> children;
+  const NormalConeTree::Node& n = tree.nodes()[node];
+  for (std::size_t lane = 0; lane < NormalConeTree::kWidth; ++lane) {
+    if (!hasFaces(n.child[lane])) continue;
+    const NormalConeTree::Bound b = n.bound(lane);
+    children.push_back({n.child[lane],
+                        {{b.centre[0], b.centre[1], b.centre[2]},
+                         {{b.n[0], b.n[1], b.n[2]}, {b.u[0], b.u[1], b.u[2]}, {b.v[0], b.v[1], b.v[2]}},
+                         {b.half[0], b.half[1], b.half[2]}}});
+  }
+  return children;
 }
 
 }  // namespace
@@ -102,36 +111,29 @@ TriangleSweep sweepTriangles(const TriangleCorners& fixed, const TriangleCorners
 }
 
 StraightSweep::StraightSweep(const NormalConeTree& scene, const NormalConeTree& part,
-                             const RigidTransform& sceneFromPart) noexcept
+                             const RigidTransform& sceneFromPart)
     : scene_(scene),
       part_(part),
       placed_(scene, part, sceneFromPart),
       turn_(glm::mat3_cast(placed_.pose().rotation)),
-      slack_(placed_.rounding()) {}
+      slack_(placed_.rounding()),
+      keptOfScene_(scene.nodes().size()),
+      keptOfPart_(part.nodes().size()) {}
 
-std::vector<SweptEntry> StraightSweep::childrenOf(const NormalConeTree& tree, std::uint32_t node) const {
-  std::vector<SweptEntry> children;
-  const NormalConeTree::Node& n = tree.nodes()[node];
-  for (std::size_t lane = 0; lane < NormalConeTree::kWidth; ++lane) {
-    if (!hasFaces(n.child[lane])) continue;
-    const NormalConeTree::Bound b = n.bound(lane);
-    children.push_back({n.child[lane],
-                        {{b.centre[0], b.centre[1], b.centre[2]},
-                         {{b.n[0], b.n[1], b.n[2]}, {b.u[0], b.u[1], b.u[2]}, {b.v[0], b.v[1], b.v[2]}},
-                         {b.half[0], b.half[1], b.half[2]}}});
-  }
+std::span<const SweptEntry> StraightSweep::sceneChildren(std::uint32_t node) {
+  std::vector<SweptEntry>& children = keptOfScene_[node];
+  if (children.empty()) children = childrenOf(scene_, node);
   return children;
 }
 
-std::vector<SweptEntry> StraightSweep::sceneChildren(std::uint32_t node) const {
-  return childrenOf(scene_, node);
-}
-
-std::vector<SweptEntry> StraightSweep::partChildren(std::uint32_t node) const {
-  std::vector<SweptEntry> children = childrenOf(part_, node);
-  for (SweptEntry& entry : children) {
-    entry.box.centre = turn_ * entry.box.centre + placed_.pose().translation;
-    entry.box.axes = turn_ * entry.box.axes;
+std::span<const SweptEntry> StraightSweep::partChildren(std::uint32_t node) {
+  std::vector<SweptEntry>& children = keptOfPart_[node];
+  if (children.empty()) {
+    children = childrenOf(part_, node);
+    for (SweptEntry& entry : children) {
+      entry.box.centre = turn_ * entry.box.centre + placed_.pose().translation;
+      entry.box.axes = turn_ * entry.box.axes;
+    }
   }
   return children;
 }
@@ -141,15 +143,23 @@ std::optional<SweepStretch> StraightSweep::meeting(const SweptBox& scene, const 
                                                    double within) const noexcept {
   const double slack = slack_ + kNodeBoxSlack * (scene.size() + part.size());
   const glm::dvec3 between = part.centre - scene.centre;
+  // [k][j]: cosine between axis k of the scene's box and axis j of the part's.
+  const glm::dmat3 cosines = glm::transpose(glm::transpose(scene.axes) * part.axes);
+  glm::dmat3 sizes;
+  for (int k = 0; k < 3; ++k)
+    sizes[k] = glm::abs(cosines[k]);
+  const glm::dvec3 sceneReach = scene.half + part.half * sizes, partReach = part.half + sizes * scene.half;
   SweepStretch stretch;
-  for (const SweptBox* box : {&scene, &part}) {
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec3& axis = box->axes[k];
-      const double reach = radiusAlong(scene, axis) + radiusAlong(part, axis) + slack;
-      const double apart = glm::dot(between, axis);
-      stretch.cut(apart - reach, apart + reach, glm::dot(direction, axis));
-      if (stretch.isEmpty() || stretch.from > within) return std::nullopt;
-    }
+  const auto isOut = [&](const glm::dvec3& axis, double reach) {
+    const double apart = glm::dot(between, axis);
+    stretch.cut(apart - reach - slack, apart + reach + slack, glm::dot(direction, axis));
+    return stretch.isEmpty() || stretch.from > within;
+  };
+  for (int k = 0; k < 3; ++k) {
+    if (isOut(scene.axes[k], sceneReach[k])) return std::nullopt;
+  }
+  for (int j = 0; j < 3; ++j) {
+    if (isOut(part.axes[j], partReach[j])) return std::nullopt;
   }
   return stretch;
 }

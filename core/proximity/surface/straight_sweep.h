@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -85,35 +86,37 @@ struct SweptEntry {
   SweptBox box;
 };
 
-/// Two bodies of which one moves straight.
+/// Two bodies of which one moves straight. Of one thread at a time.
 class StraightSweep {
  public:
   /// @param scene, part    Not empty; kept by reference.
   /// @param sceneFromPart  At the start; finite, unit quaternion.
-  StraightSweep(const NormalConeTree& scene, const NormalConeTree& part,
-                const RigidTransform& sceneFromPart) noexcept;
+  StraightSweep(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart);
 
-  /// Children of a node that are faces or may have some below them.
-  std::vector<SweptEntry> sceneChildren(std::uint32_t node) const;
-  std::vector<SweptEntry> partChildren(std::uint32_t node) const;
+  /// Children of a node that are faces or may have some below them. Kept: the entries stay where they are. Allocates when
+  /// a node is asked for the first time.
+  std::span<const SweptEntry> sceneChildren(std::uint32_t node);
+  std::span<const SweptEntry> partChildren(std::uint32_t node);
   /// Range in which the boxes may meet, within `within`; std::nullopt if they do not. Holds that of all that they hold.
   std::optional<SweepStretch> meeting(const SweptBox& scene, const SweptBox& part,
                                       const glm::dvec3& direction, double within) const noexcept;
   const PlacedFaces& placed() const noexcept { return placed_; }
 
  private:
-  std::vector<SweptEntry> childrenOf(const NormalConeTree& tree, std::uint32_t node) const;
+  /// Of each node the children, once they have been asked for.
+  using KeptChildren = std::vector<std::vector<SweptEntry>>;
 
   const NormalConeTree &scene_, &part_;
   PlacedFaces placed_;
   glm::dmat3 turn_;
   double slack_;
+  KeptChildren keptOfScene_, keptOfPart_;
 };
 
 /// Opens one of two entries that are not both leaves, the larger: calls visit(scene entry, part entry) for each of the
 /// pairs that stand for the two.
 template <class Visit>
-void openLarger(const StraightSweep& sweep, const SweptEntry& scene, const SweptEntry& part, Visit&& visit) {
+void openLarger(StraightSweep& sweep, const SweptEntry& scene, const SweptEntry& part, Visit&& visit) {
   const bool isSceneLeaf = NormalConeTree::isLeaf(scene.child);
   const bool isPartLeaf = NormalConeTree::isLeaf(part.child);
   if (isPartLeaf || (!isSceneLeaf && scene.box.size() > part.box.size())) {
