@@ -90,6 +90,7 @@ void MainMenus::setUpFileMenu() {
 void MainMenus::setUpEditMenu() {
   const PartCommands& parts = commands_.parts;
   QMenu* menu = window_->menuBar()->addMenu(tr("&Edit"));
+  menu->setObjectName(QStringLiteral("editMenu"));
   menu->addActions({commands_.undo.undo, commands_.undo.redo, menu->addSeparator(), parts.takeInHand,
                     parts.duplicate, parts.rename, parts.recolour, parts.changeUnit, parts.refine,
                     parts.check, commands_.suggestion.action(), parts.remove, menu->addSeparator(),

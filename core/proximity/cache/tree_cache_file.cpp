@@ -206,14 +206,16 @@ bool TreeCacheFile::readShape(const Sections& from, std::size_t triangles,
     surfaces.faceOfTriangle.assign(faceOf.view().begin(), faceOf.view().end());
     if (std::ranges::any_of(surfaces.faceOfTriangle, [faces](std::uint32_t face) { return face >= faces; }))
       return false;
-    for (const ShapeFace& face : array<ShapeFace>(from, Section::ShapeFaces).view()) {
+    const SharedArray<ShapeFace> shapeFaces = array<ShapeFace>(from, Section::ShapeFaces);
+    for (const ShapeFace& face : shapeFaces.view()) {
       const std::optional<ExactSurface> surface = surfaceOf(face);
       if (!surface) return false;
       surfaces.faces.push_back(*surface);
     }
     read.surfaces = std::make_shared<const SurfaceFaces>(std::move(surfaces));
   }
-  for (const ShapeColour& colour : array<ShapeColour>(from, Section::FaceColours).view()) {
+  const SharedArray<ShapeColour> shapeColours = array<ShapeColour>(from, Section::FaceColours);
+  for (const ShapeColour& colour : shapeColours.view()) {
     if (colour.isSet > 1 || !std::ranges::all_of(colour.rgb, [](float c) { return c >= 0.0F && c <= 1.0F; }))
       return false;
     read.faceColours.push_back(colour.isSet == 1 ? std::optional(colour.rgb) : std::nullopt);

@@ -1,5 +1,8 @@
 // Commands recorded by the menu, given by the window's actions, and replayed with and without a window.
+#include <QMenu>
+#include <QMenuBar>
 #include <QProcess>
+#include <QStatusBar>
 
 #include "core/scene/scene_file.h"
 #include "tests/app/desktop/desktop_driver.h"
@@ -37,6 +40,7 @@ class DesktopScriptTest : public QObject {
  private slots:
   void aRecordedSessionLeadsToTheSameSceneInAWindowAndWithoutOne();
   void theEntrySaysHowManyCommandsThereAre();
+  void oneCommandIsNotCalledCommands();
   void anotherSceneEndsTheRecording();
   void aCancelledQuestionRecordsNothing();
   void aLineThatFailsIsShownAndTheSceneIsAsBeforeIt();
@@ -91,8 +95,27 @@ void DesktopScriptTest::theEntrySaysHowManyCommandsThereAre() {
   QVERIFY(d.action("recordCommands")->text().contains(QStringLiteral("(1)")));
   d.session().undo();
   QVERIFY(d.action("recordCommands")->text().contains(QStringLiteral("(0)")));
+  d.session().redo();
+  d.add({d.movingFile});
+  QTRY_VERIFY(d.action("recordCommands")->text().contains(QStringLiteral("(2)")));
+  QMenu* edit = d.window().menuBar()->findChild<QMenu*>(QStringLiteral("editMenu"));
+  QVERIFY(edit != nullptr && edit->actions().contains(d.action("recordCommands")));
+  edit->popup(d.window().mapToGlobal(QPoint(0, 0)));
+  keepPictures(*edit, QStringLiteral("recording-commands"));
+  edit->close();
   d.choose("recordCommands");
   QCOMPARE(d.action("recordCommands")->text(), before);
+  QCOMPARE(d.window().statusBar()->currentMessage(), QStringLiteral("Recorded 2 commands to session.jsonl"));
+  keepPictures(d.window(), QStringLiteral("recorded-commands"));
+}
+
+void DesktopScriptTest::oneCommandIsNotCalledCommands() {
+  DesktopDriver d;
+  d.addCubes();
+  record(d, pathIn(d.folder, scriptName()));
+  d.session().renamePart(d.partId("fixed"), "Block");
+  d.choose("recordCommands");
+  QCOMPARE(d.window().statusBar()->currentMessage(), QStringLiteral("Recorded 1 command to session.jsonl"));
 }
 
 void DesktopScriptTest::anotherSceneEndsTheRecording() {

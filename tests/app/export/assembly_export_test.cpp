@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -123,9 +124,9 @@ class AssemblyExport : public ::testing::Test {
     }
     EXPECT_FALSE(nodes.contains("Hidden"));
   }
-  static const CadShape& shapeOf(const CadDocument& document, const std::string& name) {
+  static const CadShape& shapeOf(const CadDocument& document, std::string_view name) {
     const auto nodes = nodesOf(document);
-    return document.shapes.at(static_cast<std::size_t>(document.nodes.at(nodes.at(name)).shape));
+    return document.shapes.at(static_cast<std::size_t>(document.nodes.at(nodes.at(std::string(name))).shape));
   }
   static std::optional<CadColour> colourOf(const CadDocument& document, const std::string& name) {
     const auto nodes = nodesOf(document);

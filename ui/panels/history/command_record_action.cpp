@@ -66,9 +66,10 @@ void CommandRecordAction::askAndStart() {
 
 void CommandRecordAction::stop() {
   const QString name = shortName(QFileInfo(fromPath(recorder_.file())).fileName());
-  const auto steps = static_cast<int>(recorder_.steps());
+  const auto steps = static_cast<qulonglong>(recorder_.steps());
   if (attempt(tr("The recorded commands could not be written."), [this] { recorder_.stop(); })) {
-    emit noted(tr("Recorded %n command(s) to %1", nullptr, steps).arg(name));
+    emit noted(steps == 1 ? tr("Recorded 1 command to %1").arg(name)
+                          : tr("Recorded %1 commands to %2").arg(steps).arg(name));
   } else if (recorder_.endsHere()) {
     // Its scene is gone: there is nothing to go on with.
     recorder_.drop();
