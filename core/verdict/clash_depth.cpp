@@ -140,8 +140,8 @@ class WayOut {
   struct Blocker {
     SweepStretch stretch;
     const SweptEntry *scene, *part;  ///< Kept by the sweep.
-    std::uint32_t exact =
-        kNotExact;  ///< Index of the normal, if the entries are triangles and the range is theirs.
+    /// Index of the normal, if the entries are triangles and the range is theirs.
+    std::uint32_t exact = kNotExact;
   };
   static constexpr std::uint32_t kNotExact = std::numeric_limits<std::uint32_t>::max();
   struct EndsLast {

@@ -143,7 +143,8 @@ std::optional<SweepStretch> StraightSweep::meeting(const SweptBox& scene, const 
                                                    double within) const noexcept {
   const double slack = slack_ + kNodeBoxSlack * (scene.size() + part.size());
   const glm::dvec3 between = part.centre - scene.centre;
-  // [k][j]: cosine between axis k of the scene's box and axis j of the part's.
+  // [k][j]: cosine between axis k of the scene's box and axis j of the part's. A box reaches half its side along its own axis,
+  // to within the slack.
   const glm::dmat3 cosines = glm::transpose(glm::transpose(scene.axes) * part.axes);
   glm::dmat3 sizes;
   for (int k = 0; k < 3; ++k)

@@ -86,7 +86,7 @@ struct SweptEntry {
   SweptBox box;
 };
 
-/// Two bodies of which one moves straight. Of one thread at a time.
+/// Two bodies of which one moves straight. Not thread-safe.
 class StraightSweep {
  public:
   /// @param scene, part    Not empty; kept by reference.
