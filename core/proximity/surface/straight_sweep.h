@@ -103,7 +103,7 @@ class StraightSweep {
   const PlacedFaces& placed() const noexcept { return placed_; }
 
  private:
-  /// Of each node the children, once they have been asked for.
+  /// Children of each node; empty until they are asked for.
   using KeptChildren = std::vector<std::vector<SweptEntry>>;
 
   const NormalConeTree &scene_, &part_;
