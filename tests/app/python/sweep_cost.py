@@ -8,9 +8,10 @@ Needs the package with its sweeps (pip install .[sweep]), and a machine where no
 """
 
 import argparse
+import contextlib
 import csv
 import io
-import logging
+import multiprocessing
 import os
 import pathlib
 import statistics
@@ -19,7 +20,6 @@ import sys
 import tempfile
 import time
 
-import distributed
 import numpy as np
 
 import nearfit
@@ -144,13 +144,21 @@ def measure_pieces(table, folder, scene, poses):
 
 def measure_workers(table, options, folder, scene, poses):
     """Sweeps by one worker and by two take turns, so that whatever else happens meets both."""
-    clients, clusters = {}, []
-    for workers in (1, 2):
-        begin = time.perf_counter()
-        clusters.append(distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None,
-                                                 host="127.0.0.1", silence_logs=logging.CRITICAL))
-        clients[workers] = distributed.Client(clusters[-1])
-        table.add(f"start of {workers} worker{'s' if workers > 1 else ''}", time.perf_counter() - begin, "s")
+    with contextlib.ExitStack() as started:
+        clients = {}
+        for workers in (1, 2):
+            begin = time.perf_counter()
+            clients[workers] = started.enter_context(_sweep.local_client(workers))
+            table.add(f"start of {workers} worker{'s' if workers > 1 else ''}", time.perf_counter() - begin, "s")
+        times, rows = sweep_times(options, folder, scene, poses, clients)
+    table.add("rows of the sweeps below", rows, "")
+    for workers, seconds in times.items():
+        table.add(f"sweep by {workers} worker{'s' if workers > 1 else ''}, median", statistics.median(seconds), "s")
+    table.add("two workers over one", statistics.median(a / b for a, b in zip(times[1], times[2])), "times as fast, median")
+
+
+def sweep_times(options, folder, scene, poses, clients):
+    """({workers: [s]}, number of rows)"""
     times, rows = {1: [], 2: []}, None
     # The first round is not counted: workers get the meshes in it.
     for turn in range(options.rounds + 1):
@@ -164,14 +172,38 @@ def measure_workers(table, options, folder, scene, poses):
             if rows is not None and not table_of.equals(rows):
                 sys.exit("sweep_cost: sweeps differ in their rows")
             rows = table_of
-    for client in clients.values():
-        client.close()
-    for cluster in clusters:
-        cluster.close()
-    table.add("rows of the sweeps below", len(rows), "")
-    for workers, seconds in times.items():
-        table.add(f"sweep by {workers} worker{'s' if workers > 1 else ''}, median", statistics.median(seconds), "s")
-    table.add("two workers over one", statistics.median(a / b for a, b in zip(times[1], times[2])), "times as fast, median")
+    return times, len(rows)
+
+
+def measure_alone(queue, ready, parts, options):
+    """In a process of its own: the rows of these parts, without a sweep. Puts the time that they take [s]."""
+    scene, side = grid(options.parts, sphere(options.triangles))
+    poses = poses_within(options.poses, side)
+    spec = {"measures": list(_pieces.MEASURES), "cutoff": CUTOFF, "threshold": THRESHOLD}
+    for part in parts:
+        _pieces.measure(scene, part, poses[:16], spec)
+    ready.wait()
+    begin = time.perf_counter()
+    for part in parts:
+        _pieces.measure(scene, part, poses, spec)
+    queue.put(time.perf_counter() - begin)
+
+
+def measure_processors(table, options, parts):
+    """How many times as fast two processes are as one that share the rows of the sweeps: what the machine allows."""
+    context, times = multiprocessing.get_context("spawn"), {1: [], 2: []}
+    for _ in range(options.rounds):
+        for count in times:
+            queue, ready = context.Queue(), context.Barrier(count)
+            processes = [context.Process(target=measure_alone, args=(queue, ready, parts[i::count], options)) for i in range(count)]
+            for process in processes:
+                process.start()
+            times[count].append(max(queue.get(timeout=300) for _ in processes))
+            for process in processes:
+                process.join()
+    table.add("the same rows without a sweep, one process", statistics.median(times[1]), "s")
+    table.add("two processes over one without a sweep", statistics.median(a / b for a, b in zip(times[1], times[2])),
+              "times as fast, median")
 
 
 def extrapolate(table, row_seconds, row_bytes, mesh_bytes, mesh_memory):
@@ -216,6 +248,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="sweep_cost.") as name:
         row_bytes = measure_pieces(table, pathlib.Path(name), scene, poses)
         measure_workers(table, options, pathlib.Path(name), scene, poses)
+    measure_processors(table, options, scene.parts[:options.swept])
     extrapolate(table, row_seconds, row_bytes, mesh_bytes, mesh_memory)
     text = io.StringIO()
     text.write("".join(f"# {line}\n" for line in head))
