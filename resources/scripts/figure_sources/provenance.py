@@ -9,11 +9,7 @@ import subprocess
 KNOWN = {
     "tests/bench/results/error.csv": {"revision is not in the history", "busy machine"},
     "tests/bench/results/skips.csv": {"revision is not in the history", "revision is dirty"},
-    "tests/evidence/results/evidence.csv": {"no compiler"},
     "tests/stress/results/hand.csv": {"no load"},
-    "tests/stress/results/hours.csv": {"no load"},
-    "tests/stress/results/limit.csv": {"no load"},
-    "tests/stress/results/rest.csv": {"no load"},
     "tests/stress/results/oracle.txt": {"no load"},
     "tests/usb/results/round_trip.csv": {"no compiler", "busy machine"},
 }
