@@ -158,10 +158,11 @@ void runCheck(const CheckCommandOptions& options) {
 
 void addCheckCommand(CLI::App& program) {
   const auto options = std::make_shared<CheckCommandOptions>();
-  CLI::App* command = program.add_subcommand(
-      "check",
-      "Times checks of whole scenes, hierarchies included, beside the least distances of the same pairs by "
-      "other libraries, and a report. Exit code 1 if a distance or a clash differs from theirs.");
+  CLI::App* command =
+      program.add_subcommand("check",
+                             "Times checks of whole scenes, hierarchies included, beside what other "
+                             "libraries say of the same pairs, "
+                             "and a report. Exit code 1 if a distance or a clash differs from theirs.");
   command->add_option("files", options->files, "Scene files to check instead of generated scenes")
       ->check(CLI::ExistingFile);
   command

@@ -22,13 +22,16 @@ struct PeerPair {
 };
 
 /// A library's check of a scene: of each pair that its broad phase finds, the least distance if it is within the
-/// threshold, and no more. Pairs are shared out to the threads that a check of Nearfit has.
+/// threshold; where the library can list them, also all pairs of triangles that are. Pairs of parts are shared out to
+/// the threads that a check of Nearfit has.
 struct PeerCheck {
   double buildSeconds = 0.0;   ///< Hierarchies from meshes in memory, each mesh once.
   double pairsSeconds = 0.0;   ///< Broad phase and distances.
   std::size_t candidates = 0;  ///< Pairs that the broad phase finds.
   std::size_t measured = 0;    ///< Thereof within the limit of time.
   std::vector<PeerPair> near;  ///< Of those measured, in ascending order.
+  std::size_t listed = 0;      ///< Pairs of triangles within the threshold; 0 where none are asked for.
+  std::size_t fullLists = 0;   ///< Lists that ended because they were full.
 
   double seconds() const { return buildSeconds + pairsSeconds; }
   bool isCut() const { return measured < candidates; }
@@ -42,6 +45,9 @@ struct CheckPeer {
 
 CheckPeer fclCheckPeer();   ///< Where the program is built with FCL.
 CheckPeer coalCheckPeer();  ///< Where the program is built with Coal.
+/// The same with a list of all pairs of triangles within the threshold: among them are those of all minima, which its
+/// caller would still have to find.
+CheckPeer coalListsPeer();
 
 /// All that this program is built with.
 std::vector<CheckPeer> checkPeers();

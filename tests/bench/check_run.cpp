@@ -66,6 +66,8 @@ void addPeer(const PeerCheck& check, const CheckAgreement& agreement, CheckMetho
     runs.candidates = check.candidates;
     runs.measured = check.measured;
     runs.near = check.near.size();
+    runs.listed = check.listed;
+    runs.fullLists = check.fullLists;
     runs.clashes = static_cast<std::size_t>(std::ranges::count_if(check.near, &PeerPair::doMeet));
   }
   const bool isWorse =

@@ -50,8 +50,9 @@ struct CheckMethodRuns {
   double residentBefore = 0.0;               ///< Most of all turns [bytes].
   std::size_t candidates = 0, measured = 0;  ///< Of a peer: PeerCheck. In the turn that measured least.
   std::size_t near = 0, touching = 0, clashes = 0,
-              contained = 0;  ///< Pairs; of a peer `near` are all within.
-  CheckAgreement agreement;   ///< Of a peer: the worst of all turns.
+              contained = 0;              ///< Pairs; of a peer `near` are all within.
+  std::size_t listed = 0, fullLists = 0;  ///< Of a peer: PeerCheck. In the same turn.
+  CheckAgreement agreement;               ///< Of a peer: the worst of all turns.
 
   bool isCut() const { return measured < candidates; }
 };

@@ -1,6 +1,8 @@
 #include "tests/bench/check_run.h"
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -96,6 +98,40 @@ TEST_F(CheckRun, LibrariesBuiltInAgreeWithExactArithmetic) {
   }
 }
 
+TEST(CheckPeers, ListsHaveAllPairsOfTrianglesWithinTheThreshold) {
+  const ManyPartsScene scene =
+      stackedParts("two", {.parts = 2, .shapes = 2, .frequency = 2, .thresholdFraction = 0.05});
+  const auto trianglesOf = [&](std::size_t part) {
+    std::vector<std::array<glm::dvec3, 3>> placed;
+    const TriangleMesh& mesh = scene.meshOf(part);
+    for (const Triangle& t : mesh.triangles()) {
+      placed.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k)
+        placed.back()[k] = scene.parts[part].worldFromPart.applyToPoint(mesh.vertices()[t[k]]);
+    }
+    return placed;
+  };
+  // Coal's own distance of two triangles is iterated.
+  const double rounding = 1e-5 * scene.threshold;
+  std::size_t surely = 0, perhaps = 0;
+  for (const auto& a : trianglesOf(0)) {
+    for (const auto& b : trianglesOf(1)) {
+      const double distance = test::exactDistance(a, b);
+      surely += distance < scene.threshold - rounding ? 1U : 0U;
+      perhaps += distance < scene.threshold + rounding ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(surely, 10U) << "a scene that tests something";
+  for (const CheckPeer& peer : checkPeers()) {
+    const PeerCheck check = peer.check(scene, 1e9);
+    EXPECT_EQ(check.near.size(), 1U) << peer.name;
+    EXPECT_EQ(check.fullLists, 0U) << peer.name;
+    if (peer.name != "coal-lists") continue;
+    EXPECT_GE(check.listed, surely);
+    EXPECT_LE(check.listed, perhaps);
+  }
+}
+
 TEST_F(CheckRun, WhatClashesAreMeasuredByCanBeLeftOut) {
   const auto isMeasured = [](const PairFinding& finding) {
     return finding.clash && (finding.clash->volume || finding.clash->freeing);
@@ -176,6 +212,30 @@ TEST_F(CheckRun, FiguresStateTheMedianTheWorstAndIfGoalsAreMet) {
   EXPECT_FALSE(figureNamed({0.0, 0.0, 1e12}, "slow", "times nearfit").isMet());
   EXPECT_THAT(checkCsvLine(ratio), HasSubstr(",slow,times nearfit,x,3,"));
   EXPECT_EQ(std::ranges::count(checkCsvLine(ratio), ','), std::ranges::count(checkCsvHeader(), ','));
+}
+
+TEST_F(CheckRun, AListIsJudgedBesideTheCheckThatMeasuresNoClashEither) {
+  const CheckPeer lists{"lists", [](const ManyPartsScene&, double) {
+                          PeerCheck check = exactCheck();
+                          check.listed = 7;
+                          check.fullLists = 2;
+                          return check;
+                        }};
+  const std::vector<CheckMethodRuns> runs = runChecks(scene, {lists}, {.repeats = 1});
+  std::size_t judged = 0;
+  for (const CheckFigure& figure : checkFigures(scene, {0.0, 0.0, 5.0}, runs)) {
+    if (figure.method != "lists") continue;
+    if (figure.name == "pairs of triangles listed") {
+      EXPECT_EQ(figure.median, 7.0);
+    }
+    if (figure.name == "whole check") {
+      EXPECT_EQ(figure.remark, "cut: 2 lists are full");
+    }
+    if (figure.goal == 0.0) continue;
+    EXPECT_EQ(figure.name, "times nearfit-unmeasured");
+    ++judged;
+  }
+  EXPECT_EQ(judged, 1U);
 }
 
 TEST_F(CheckRun, ALibraryThatIsCutIsSaidToBe) {

@@ -1,3 +1,5 @@
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -14,6 +16,9 @@ namespace nearfit::bench {
 namespace {
 
 using CoalModelPtr = std::shared_ptr<CoalModel>;
+
+/// Max length of a list of pairs of triangles: some 500 MB, in each thread.
+constexpr std::size_t kMaxListed = std::size_t{1} << 22;
 
 std::uint32_t indexOfCoal(const coal::CollisionObject& object) {
   return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object.getUserData()));
@@ -76,14 +81,48 @@ class CoalParts {
     return coal::collide(objects_[pair.first].get(), objects_[pair.second].get(), request, result) > 0;
   }
 
- private:
+ protected:
   std::vector<std::unique_ptr<coal::CollisionObject>> objects_;
+};
+
+/// Lists pairs of triangles too.
+class CoalLists : public CoalParts {
+ public:
+  using CoalParts::CoalParts;
+
+  double distance(const PeerIndices& pair, double within) const {
+    const double least = CoalParts::distance(pair, within);
+    if (least < within) list(pair, within);
+    return least;
+  }
+  void addCounts(PeerCheck& check) const {
+    check.listed = listed_;
+    check.fullLists = full_;
+  }
+
+ private:
+  void list(const PeerIndices& pair, double within) const {
+    // Neither depths of triangles that meet nor distances of those beyond the threshold are asked for.
+    coal::CollisionRequest request(coal::NO_REQUEST, kMaxListed);
+    request.security_margin = request.distance_upper_bound = within;
+    coal::CollisionResult result;
+    const std::size_t found =
+        coal::collide(objects_[pair.first].get(), objects_[pair.second].get(), request, result);
+    listed_ += found;
+    if (found >= kMaxListed) ++full_;
+  }
+
+  mutable std::atomic<std::size_t> listed_{0}, full_{0};
 };
 
 }  // namespace
 
 CheckPeer coalCheckPeer() {
   return {"coal", measurePeer<CoalParts>};
+}
+
+CheckPeer coalListsPeer() {
+  return {"coal-lists", measurePeer<CoalLists>};
 }
 
 }  // namespace nearfit::bench

@@ -59,6 +59,7 @@ std::vector<CheckPeer> checkPeers() {
 #endif
 #ifdef NEARFIT_BENCH_COAL
   all.push_back(coalCheckPeer());
+  all.push_back(coalListsPeer());
 #endif
   return all;
 }

@@ -26,7 +26,7 @@ auto peerModels(std::span<const TriangleMesh> meshes, const Make& make) {
 /// Measures a library.
 /// @tparam Bodies  Constructed of a ManyPartsScene and what makeModels() of its meshes returns. Of two parts by their
 ///                 indices it has pairsWithin(threshold); distance(pair, within), in several threads, no less than
-///                 `within` where nothing is nearer; and doMeet(pair).
+///                 `within` where nothing is nearer; doMeet(pair); and it may have addCounts(PeerCheck&).
 template <class Bodies>
 PeerCheck measurePeer(const ManyPartsScene& scene, double maxSeconds) {
   /// Distance at which the library is asked if the surfaces meet, of the scene's diagonal: far more than its rounding.
@@ -56,6 +56,7 @@ PeerCheck measurePeer(const ManyPartsScene& scene, double maxSeconds) {
     const auto [least, greatest] = std::minmax(pairs[i].first, pairs[i].second);
     check.near.push_back({least, greatest, distances[i], isAsked && bodies.doMeet(pairs[i])});
   }
+  if constexpr (requires { bodies.addCounts(check); }) bodies.addCounts(check);
   std::ranges::sort(check.near, {}, [](const PeerPair& p) { return std::pair(p.part, p.other); });
   return check;
 }
