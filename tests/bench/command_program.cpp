@@ -1,7 +1,9 @@
 #include "tests/bench/command_program.h"
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <string>
 
 #include <fmt/format.h>
@@ -54,6 +56,12 @@ int runProgram(const CommandProgram& about, int argc, char** argv) {
     fmt::print(stderr, "{}: {}\n", about.name, e.what());
     return kFailure;
   }
+}
+
+void endProgram(int code) {
+  std::cout.flush();
+  std::fflush(nullptr);
+  std::_Exit(code);
 }
 
 }  // namespace nearfit::bench

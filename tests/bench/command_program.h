@@ -15,4 +15,8 @@ struct CommandProgram {
 /// anything else, with a line on stderr.
 int runProgram(const CommandProgram& about, int argc, char** argv);
 
+/// Ends the program; what was written is flushed. Static objects are not destroyed: FCL and Coal bring two versions of
+/// liboctomap, whose static objects are one, and both would destroy them.
+[[noreturn]] void endProgram(int code);
+
 }  // namespace nearfit::bench

@@ -27,8 +27,9 @@ void addCommands(CLI::App& program, int, char**) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return nearfit::bench::runProgram(
+  const int code = nearfit::bench::runProgram(
       {"nearfit-bench", "Measures Nearfit's queries and hierarchies beside those of other libraries.",
        kFooter, addCommands},
       argc, argv);
+  nearfit::bench::endProgram(code);
 }

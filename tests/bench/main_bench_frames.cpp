@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/session/session.h"
 #include "tests/bench/bench_shapes.h"
+#include "tests/bench/command_program.h"
 #include "tests/bench/digest.h"
 #include "tests/bench/instances.h"
 #include "tests/bench/skip_row.h"
@@ -111,14 +112,15 @@ bench::SkipRow measure() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  int code = 0;
   try {
     ui::Viewport::setDefaultSurfaceFormat();
     const QApplication qt(argc, argv);
     const bench::SkipRow row = measure();
     bench::writeSkipRows(std::cout, {&row, 1});
-    return 0;
   } catch (const std::exception& e) {
     fmt::print(stderr, "nearfit-bench-frames: {}\n", e.what());
-    return 1;
+    code = 1;
   }
+  bench::endProgram(code);
 }

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -187,7 +186,5 @@ int main(int argc, char** argv) {
       {"nearfit-bench-window", "Measures the application's window: what a user waits for, and what it costs.",
        "", addCommands},
       argc, argv);
-  // FCL and Coal bring two versions of liboctomap, whose static objects are one: both would destroy them.
-  std::fflush(nullptr);
-  std::_Exit(code);
+  bench::endProgram(code);
 }

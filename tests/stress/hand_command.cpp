@@ -2,9 +2,11 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <utility>
@@ -71,16 +73,28 @@ std::vector<std::uint64_t> ticksOf(const std::vector<StressEntry>& scenes, std::
   return shareTicks(costs, total);
 }
 
+/// Indices of the scenes, those first that take longest: none of them is left to one thread at the end.
+std::vector<std::size_t> longestFirst(const std::vector<StressEntry>& scenes,
+                                      const std::vector<std::uint64_t>& ticks) {
+  const auto timeOf = [&](std::size_t i) { return scenes[i].cost * static_cast<double>(ticks[i]); };
+  std::vector<std::size_t> order(scenes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater(), timeOf);
+  return order;
+}
+
 /// Rows are printed in the order of the scenes, each as soon as those before it are.
 std::vector<Row> runScenes(const std::vector<StressEntry>& scenes, const HandOptions& options,
                            StressMode mode) {
   const std::vector<std::uint64_t> ticks = ticksOf(scenes, options.ticks);
+  const std::vector<std::size_t> order = longestFirst(scenes, ticks);
   std::vector<Row> rows(scenes.size());
   std::atomic<std::size_t> next{0};
   std::size_t printed = 0;
   std::mutex mutex;
   const auto work = [&] {
-    for (std::size_t i = next++; i < scenes.size(); i = next++) {
+    for (std::size_t k = next++; k < scenes.size(); k = next++) {
+      const std::size_t i = order[k];
       Row row = runScene(scenes[i], {ticks[i], options.seed, options.certifyEvery, mode});
       const std::lock_guard lock(mutex);
       rows[i] = std::move(row);
