@@ -16,6 +16,7 @@
 #include "tests/support/part_geometries.h"
 #include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
+#include "ui/view3d/view_detail.h"
 #include "ui/view3d/viewport.h"
 
 /// Times the frames of a view in which nothing changes, and the same drawn all the same; writes the row for
@@ -60,7 +61,11 @@ class View {
     viewport_.renderWindow()->WaitForCompletion();
   }
 
+  /// Once it is at rest: until then a picture drawn all the same is not smooth.
   std::uint64_t picture() {
+    constexpr int kMilliseconds = 10;
+    while (!viewport_.detail().isSettled())
+      QApplication::processEvents(QEventLoop::AllEvents, kMilliseconds);
     const QImage image = viewport_.grabFramebuffer().convertToFormat(QImage::Format_RGB32);
     bench::Digest digest;
     for (int y = 0; y < image.height(); ++y) {

@@ -11,7 +11,6 @@ KNOWN = {
     "tests/bench/results/skips.csv": {"revision is not in the history", "revision is dirty"},
     "tests/stress/results/hand.csv": {"no load"},
     "tests/stress/results/oracle.txt": {"no load"},
-    "tests/usb/results/round_trip.csv": {"no compiler", "busy machine"},
 }
 # A sequence of our own runs leaves a load of up to one a processor behind, twice as many say that others were at work.
 BUSY_LOAD_PER_PROCESSOR = 2.0
