@@ -2,7 +2,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include <coal/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <coal/collision.h>
@@ -21,7 +23,7 @@ using CoalModelPtr = std::shared_ptr<CoalModel>;
 constexpr std::size_t kMaxListed = std::size_t{1} << 22;
 
 std::uint32_t indexOfCoal(const coal::CollisionObject& object) {
-  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object.getUserData()));
+  return *static_cast<const std::uint32_t*>(object.getUserData());
 }
 
 /// Keeps Coal's traversal for the least distance from going below the threshold.
@@ -45,19 +47,22 @@ class CoalParts {
     return peerModels(meshes, [](const TriangleMesh& mesh) { return CoalModelPtr(coalModelOf(mesh)); });
   }
 
-  CoalParts(const ManyPartsScene& scene, const std::vector<CoalModelPtr>& models) {
-    for (const ManyPartsPlace& place : scene.parts)
+  CoalParts(const ManyPartsScene& scene, const std::vector<CoalModelPtr>& models)
+      : indices_(scene.parts.size()) {
+    std::iota(indices_.begin(), indices_.end(), 0U);
+    for (std::uint32_t& index : indices_) {
+      const ManyPartsPlace& place = scene.parts[index];
       objects_.push_back(
           std::make_unique<coal::CollisionObject>(models[place.mesh], toCoal(place.worldFromPart)));
+      objects_.back()->setUserData(&index);
+    }
   }
 
   std::vector<PeerIndices> pairsWithin(double threshold) const {
     coal::DynamicAABBTreeCollisionManager manager;
     std::vector<coal::CollisionObject*> objects;
-    for (std::size_t i = 0; i < objects_.size(); ++i) {
-      objects_[i]->setUserData(reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
-      objects.push_back(objects_[i].get());
-    }
+    for (const auto& object : objects_)
+      objects.push_back(object.get());
     manager.registerObjects(objects);
     manager.setup();
     CoalPairsWithin found(threshold);
@@ -82,6 +87,7 @@ class CoalParts {
   }
 
  protected:
+  std::vector<std::uint32_t> indices_;  ///< The objects' user data.
   std::vector<std::unique_ptr<coal::CollisionObject>> objects_;
 };
 

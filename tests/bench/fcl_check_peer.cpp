@@ -1,6 +1,8 @@
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/narrowphase/collision.h>
@@ -21,19 +23,22 @@ class FclParts {
     return peerModels(meshes, [](const TriangleMesh& mesh) { return FclModelPtr(fclModelOf(mesh)); });
   }
 
-  FclParts(const ManyPartsScene& scene, const std::vector<FclModelPtr>& models) {
-    for (const ManyPartsPlace& place : scene.parts)
+  FclParts(const ManyPartsScene& scene, const std::vector<FclModelPtr>& models)
+      : indices_(scene.parts.size()) {
+    std::iota(indices_.begin(), indices_.end(), 0U);
+    for (std::uint32_t& index : indices_) {
+      const ManyPartsPlace& place = scene.parts[index];
       objects_.push_back(
           std::make_unique<fcl::CollisionObjectd>(models[place.mesh], toFcl(place.worldFromPart)));
+      objects_.back()->setUserData(&index);
+    }
   }
 
   std::vector<PeerIndices> pairsWithin(double threshold) const {
     fcl::DynamicAABBTreeCollisionManagerd manager;
     std::vector<fcl::CollisionObjectd*> objects;
-    for (std::size_t i = 0; i < objects_.size(); ++i) {
-      objects_[i]->setUserData(reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
-      objects.push_back(objects_[i].get());
-    }
+    for (const auto& object : objects_)
+      objects.push_back(object.get());
     manager.registerObjects(objects);
     manager.setup();
     Found found{threshold, {}};
@@ -62,7 +67,7 @@ class FclParts {
     std::vector<PeerIndices> pairs;
   };
   static std::uint32_t indexOf(const fcl::CollisionObjectd& object) {
-    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object.getUserData()));
+    return *static_cast<const std::uint32_t*>(object.getUserData());
   }
   /// Keeps FCL's traversal for the least distance from going below the threshold.
   static bool add(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data, double& distance) {
@@ -73,6 +78,7 @@ class FclParts {
     return false;
   }
 
+  std::vector<std::uint32_t> indices_;  ///< The objects' user data.
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;
 };
 

@@ -165,8 +165,9 @@ ManyPartsScene fittedParts(const std::string& name, const FittedPartsSize& size)
   std::mt19937_64 random(size.seed);
   Aabb all;
   for (std::size_t i = 0; i < size.pegs; ++i) {
-    const glm::dvec3 cell(static_cast<double>(i % edge) * pitch, static_cast<double>(i / edge % edge) * pitch,
-                          static_cast<double>(i / (edge * edge)) * rise);
+    const std::size_t row = i / edge % edge, layer = i / (edge * edge);
+    const glm::dvec3 cell(static_cast<double>(i % edge) * pitch, static_cast<double>(row) * pitch,
+                          static_cast<double>(layer) * rise);
     for (std::uint32_t mesh = 0; mesh < 2; ++mesh) {
       scene.parts.push_back({mesh, fittedPose(cell, random)});
       const Aabb box = placedBounds(scene.meshes[mesh], scene.parts.back().worldFromPart);
