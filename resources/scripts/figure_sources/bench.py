@@ -6,7 +6,7 @@ import provenance
 
 METHOD_COLUMNS = ("p50_us", "p99_us", "max_us")
 # "exact" is said of the whole set alone (glossary): this one drops minima.
-METHOD_NAMES = {"exact grouped": "grouped: of near minima the nearest alone (`exact grouped` in the file)"}
+METHOD_NAMES = {"exact grouped": "grouped: the nearest of each area of contact (`exact grouped` in the file)"}
 SKIP_NAMES = {
     "features": "features that can carry no minimum", "barriers": "barriers that cannot be there, as bodies are apart",
     "broad-phase": "1,000 parts out of reach", "still-ticks": "minima of a tick at rest",
