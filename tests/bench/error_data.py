@@ -1,9 +1,14 @@
 """Rows of `nearfit-bench error`, and what follows from them: fronts, orders, times to an error."""
 
 import csv
+import pathlib
+import sys
 from dataclasses import dataclass
 
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "resources" / "scripts" / "figure_sources"))
+import fronts  # noqa: E402
 
 # Column, what it is called, its unit, the order that facets leave it.
 QUANTITIES = {
@@ -13,10 +18,8 @@ QUANTITIES = {
     "force": ("force_rms", "force", "N", 1),
     "torque": ("torque_rms_m", "torque", "N m", 1),
 }
-FLOOR = 1e-16  # Errors below are rounding, zero with them: logarithms end here.
 COARSE = 4  # Finer than this, errors follow their order.
-MARGIN = 1.02  # Times and errors this near to the best count as it.
-SETTLED = 1e-12  # An error below this on every mesh has no order: the mesh is the solid there.
+FLOOR, MARGIN = fronts.FLOOR, fronts.MARGIN  # An error at the floor on every mesh has no order: the mesh is the solid there.
 
 
 @dataclass
@@ -64,20 +67,9 @@ def error(row, quantity):
     return max(value, FLOOR) if np.isfinite(value) else np.nan
 
 
-def is_only_measured(method):
-    """True of what drops minima by choice: it stands in tables and plots, but on no front."""
-    return method == "grouped"
-
-
 def front(rows, quantity):
     """Of all methods that programs use and all meshes, those that none beats in both time and error; fastest first."""
-    kept, least = [], np.inf
-    rows = [row for row in rows if not is_only_measured(row["method"])]
-    for row in sorted(rows, key=lambda r: (r["paid_us"], error(r, quantity))):
-        if error(row, quantity) * MARGIN < least:
-            least = error(row, quantity)
-            kept.append(row)
-    return kept
+    return [p[3] for p in fronts.front([(r["paid_us"], error(r, quantity), r["method"], r) for r in rows])]
 
 
 def time_to(rows, quantity, target):
@@ -90,7 +82,7 @@ def order(rows, quantity):
     """Slope of error over edge length, in logarithms; None where the error is rounding, or none is left."""
     rows = [r for r in rows if r["fineness"] >= COARSE]
     errors = np.array([error(r, quantity) for r in rows])
-    if len(rows) < 3 or not np.all(np.isfinite(errors)) or errors.max() < SETTLED:
+    if len(rows) < 3 or not np.all(np.isfinite(errors)) or errors.max() <= FLOOR:
         return None
     return float(np.polyfit(np.log([r["edge_m"] for r in rows]), np.log(errors), 1)[0])
 

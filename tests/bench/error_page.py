@@ -82,13 +82,13 @@ def span(values, unit):
 
 
 def in_words(errors, unit):
-    return "rounding" if max(errors) < data.SETTLED else span([0.0 if e < data.SETTLED else e for e in errors], unit)
+    return "rounding" if max(errors) <= data.FLOOR else span([0.0 if e <= data.FLOOR else e for e in errors], unit)
 
 
 def exact_times(table, pair, quantity, rows):
     """How many times as long the fastest exact method takes for as small an error, for each row; None: it has none so small."""
     exact = [r for m in table.methods if data.is_exact(m) for r in table.of(pair, m)]
-    limits = [max(data.error(r, quantity) * data.MARGIN, data.SETTLED) for r in rows]
+    limits = [data.error(r, quantity) * data.MARGIN for r in rows]
     times = [data.time_to(exact, quantity, limit) for limit in limits]
     return [None if t is None else t / r["paid_us"] for t, r in zip(times, rows)]
 
@@ -109,13 +109,19 @@ def win_line(table, pair, quantity, rows):
             (", or do not come to that." if len(known) < len(ratios) else "."))
 
 
+def is_won(table, pair, quantity, row):
+    """True if no exact method is as quick, to within the margin, with as small an error."""
+    ratio = exact_times(table, pair, quantity, [row])[0]
+    return ratio is None or ratio > data.MARGIN
+
+
 def won_fronts(table):
     """What parts of a front a method holds that is not exact: where it misses no minimum, and where it misses some."""
     whole, partial = [], []
     for quantity in data.QUANTITIES:
         for pair in table.pairs:
             kept = data.front([r for r in table.rows if r["pair"] == pair], quantity)
-            others = [r for r in kept if not data.is_exact(r["method"])]
+            others = [r for r in kept if not data.is_exact(r["method"]) and is_won(table, pair, quantity, r)]
             for method in dict.fromkeys(r["method"] for r in others):
                 for found, rows in ((True, whole), (False, partial)):
                     chosen = [r for r in others if r["method"] == method and (r["missed"] == 0) == found]
@@ -168,8 +174,9 @@ def page(table):
     lines += [f"    {comment}" for comment in table.comments]
     lines += ["", "![Run time against error](error_headline.png)", "",
               "## Who is on the Pareto front", "",
-              "Points (a method on a mesh) that no other beats in both median time and error, over all pairs; what is better "
-              "by less than 2 % does not beat. *grouped* drops minima, which the program does only if asked to, and is left out of fronts. "
+              "Points (a method on a mesh) that no other beats, over all pairs: one beats another if it is as quick and as near, and more than 2 % "
+              "quicker or nearer. Times and errors that differ by less count as equal, and so do errors below 1e-12, which are rounding. "
+              "*grouped* drops minima, which the program does only if asked to: it is measured, and stands on no front. "
               + ("Times are medians of an answer and, on average, what another thread does for it: the search ahead of *exact tracked*."
                  if table.pays_for_all_threads else "Times of *exact tracked* leave out the thread that searches ahead."), ""]
     lines += shares(table)

@@ -64,7 +64,7 @@ def _panel(axes, table, looks, pair, quantity):
     errors = [data.error(r, quantity) for r in rows if np.isfinite(data.error(r, quantity))]
     axes.set_xlim(min(times) / 1.5, max(times) * 1.5)
     axes.set_ylim(min(errors) / 3, max(errors) * 3)
-    if max(errors) < data.SETTLED:
+    if max(errors) <= data.FLOOR:
         axes.set_ylim(data.FLOOR / 10, 1e3 * data.FLOOR)
         axes.text(0.97, 0.93, "rounding alone", transform=axes.transAxes, ha="right", va="top", fontsize=9, color=GREY)
     axes.set_axisbelow(True)
@@ -148,7 +148,7 @@ def _falling(axes, table, method, quantity, colours):
     for pair, colour in colours.items():
         rows = table.of(pair, method)
         y = [data.error(r, quantity) for r in rows]
-        if not np.nanmax(y) > data.SETTLED:
+        if not np.nanmax(y) > data.FLOOR:
             continue
         x = [r["edge_m"] for r in rows]
         axes.loglog(x, y, color=colour, marker="o", ms=3.2, lw=1.3)
@@ -168,7 +168,7 @@ def convergence(table, file):
               ("exact cold", "direction", "direction [rad]"), ("exact cold", "force", "force [N], a spring each minimum"),
               ("grouped", "force", "force [N], a spring each group")]
     panels = [p for p in panels if p[0] in table.methods]
-    smooth = [p for p in table.pairs if max(r["position_rms_m"] for r in table.of(p, panels[0][0])) > data.SETTLED]
+    smooth = [p for p in table.pairs if max(r["position_rms_m"] for r in table.of(p, panels[0][0])) > data.FLOOR]
     colours = dict(zip(smooth, plt.get_cmap("tab20")(np.arange(20) % 20)))
     figure, axes = plt.subplots(1, len(panels), figsize=(3.7 * len(panels), 4.9))
     for one, (method, quantity, title) in zip(axes, panels):
