@@ -14,9 +14,11 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "resources" / "scripts" / "figure_sources"))
 import catalogue  # noqa: E402
 import common  # noqa: E402
+import fronts  # noqa: E402
 import markers  # noqa: E402
 import numbers_text  # noqa: E402
 import provenance  # noqa: E402
+import scenes  # noqa: E402
 from results import FigureError, Results, Table  # noqa: E402
 
 HEAD = """# processor: AMD EPYC (2 available)
@@ -195,6 +197,10 @@ class Provenance(Folder):
         self.assertRegex(self.problems()[0], "busy machine")
         self.csv.write_text("# busy machine: other programs kept 1.5 of 2 processors at work\n" + busy)
         self.assertEqual(self.problems(), [])
+        table = Results(self.root).table("tests/bench/results/times.csv")
+        self.assertEqual(provenance.note(table), "busy machine")
+        self.assertIn("bench/times.csv (**busy machine**)", catalogue.make(Results(self.root), "sources"))
+        self.assertIn("`times.csv` (busy machine)", catalogue.make(Results(self.root), "stale files"))
 
     def test_a_known_fault_is_let_pass_and_has_to_go_once_it_is_mended(self):
         file = "tests/bench/results/times.csv"
@@ -214,6 +220,24 @@ class Provenance(Folder):
         out = self.run_script("--provenance")
         self.assertEqual(out.returncode, 0)
         self.assertIn("tests/bench/results/times.csv: 0123456789ab", out.stdout)
+
+
+class Fronts(unittest.TestCase):
+    def on(self, *points):
+        return [p[2] for p in fronts.front(list(points))]
+
+    def test_hold_who_is_not_beaten_in_time_and_error(self):
+        self.assertEqual(self.on((1, 0.5, "quick"), (2, 0.1, "near"), (3, 0.3, "beaten")), ["quick", "near"])
+
+    def test_take_differences_below_two_percent_for_none(self):
+        self.assertEqual(self.on((1.0, 0.1, "a"), (1.01, 0.1, "b"), (1.03, 0.1, "slower")), ["a", "b"])
+        self.assertEqual(self.on((1.0, 0.102, "farther off"), (1.01, 0.09, "near")), ["near"])
+
+    def test_take_errors_of_rounding_for_none(self):
+        self.assertEqual(self.on((1, 3e-14, "quick"), (2, 1e-16, "exact"), (3, 0.0, "zero")), ["quick"])
+
+    def test_leave_out_who_found_nothing_and_who_drops_minima_by_choice(self):
+        self.assertEqual(self.on((1, float("nan"), "nothing"), (2, 0.0, "exact grouped"), (2, 0.0, "grouped"), (3, 0.1, "a")), ["a"])
 
 
 class RealTree(unittest.TestCase):
@@ -246,15 +270,30 @@ class FirstArrival(Folder):
         text = PAPER_HEADER
         for method, count in (("printed", 3), ("paper-spans", 3), ("paper-cones", 9), ("nearfit-cold", 2)):
             text += row("appendix", method, "minima at the pose", count)
-        text += row("appendix", "printed", "loop [Hz]", 176)
+        text += row("appendix", "printed", "loop [Hz]", 176.9)
+        for method in ("nearfit-cold", "nearfit-tracked", "paper-spans", "paper-cones", "fcl"):
+            text += row("appendix", method, "query [us]", 7, 70)
+        text += row("appendix", "paper-spans", "build [s]", 0.3) + row("appendix", "nearfit", "build [s]", 0.1)
         for method, time, slowest in (("paper spans", 4000, 8000), ("exact tracked", 5, 50), ("proxy's tick", 20, 100)):
             text += row("appendix", method, "loop [Hz]", 1e6 / time) + row("appendix", method, "loop [us]", time, slowest)
-        for method, whole, error in (("paper spans", 4000, 0.5), ("exact tracked", 30, 0), ("FCL global distance", 20, 0.9)):
+        for method, whole, error in (("paper spans", 4000, 0.5), ("exact tracked", 30, 0), ("FCL global distance", 20, 0.9),
+                                     ("exact grouped", 10, 0.3)):
             text += row("appendix", method, "loop and search beside it [us]", whole)
-            text += row("judge", method, "force error [relative]", error) + row("judge", method, "minima missed", 0)
-        text += row("arguments", "global minimum", "force [N]", 0.7) + row("arguments", "global minimum", "springs", 1)
+            text += row("judge", method, "force error [relative]", error) + row("judge", method, "minima missed", 0, samples=25)
+        for method, jumps, size in (("global minimum", 2, 1.1), ("exact", 1, 0.4), ("all pairs", 0, "nan"), ("grouped", 1, 0.2)):
+            text += row("arguments", method, "force [N]", 0.7) + row("arguments", method, "springs", 1)
+            text += row("arguments", method, "ticks with a jump", jumps) + row("arguments", method, "ticks examined for one", 20)
+            text += row("arguments", method, "jump of force [N]", size, samples=jumps) + row("arguments", method, "tick [us]", 2000)
+        text += row("arguments", "proxy", "force [N]", 1.5) + row("arguments", "proxy", "change of force a tick [N]", 0.3)
         text += row("arguments", "exact", "springs born at the cutoff", 12)
+        text += row("arguments", "box of the scene", "centre of mass off [of the diagonal]", 0.02)
+        text += row("arguments", "box of the scene", "torque error [relative]", 0.1)
+        # A pair of scans that is judged alone.
+        text += row("judge", "exact tracked", "force error [relative]", 0, scene="scans")
+        text += row("judge", "exact tracked", "minima missed", 0, scene="scans", samples=25)
+        text += row("judge", "exact tracked", "loop and search beside it [us]", 40, scene="scans")
         for part, setting in (("cutoff", "0.05"), ("triangles", "512")):
+            text += row(part, "paper-spans", "query [us]", 3e5, 5e6, setting=setting)
             text += row(part, "nearfit-cold", "query [us]", 3, 9, setting=setting) + row(part, "nearfit-cold", "minima", 2, 4, setting=setting)
         self.write("tests/bench/results/paper.csv", text)
 
@@ -271,13 +310,26 @@ class FirstArrival(Folder):
         self.paper()
         self.assertIn("| a disc-gear | 3 | 2 | 176 | 250 (125) | 200,000 (20,000) | 50,000 (10,000) |", self.make("appendix a in short"))
         self.assertIn("| a disc-gear | 3 | 3 | 9 | 2 | 176 |", self.make("appendix a"))
-        front = {line.split(" | ")[1]: line for line in self.make("front on the paper's meshes").splitlines()[2:]}
-        self.assertEqual({name: "**front**" in line for name, line in front.items()},
-                         {"FCL global distance": True, "exact tracked": True, "paper spans": False})
-        for name in ("judged", "arguments", "onset", "law and centre"):
+        self.assertIn("on a it is 2 where the paper prints 3", self.make("appendix a, verdict"))
+        self.assertIn("| a disc-gear | 7.0 (70) | 7.0 (70) | 7.0 (70) | 7.0 (70) | 7.0 (70) |", self.make("appendix a, times"))
+        for name in ("appendix a", "appendix a, times", "appendix a in short"):
+            self.assertNotIn("scans", self.make(name))
+            for line in self.make(name).splitlines()[2:]:
+                self.assertNotIn("-", [cell.strip() for cell in line.split("|")], f"{name}: {line}")
+        front = {tuple(line.split(" | ")[:2]): line for line in self.make("front on the paper's meshes").splitlines()[2:]}
+        self.assertEqual({name: "**front**" in line for (_, name), line in front.items() if "scans" not in line},
+                         {"FCL global distance": True, "exact tracked": True, "paper spans": False, "grouped": False})
+        self.assertIn("*exact tracked* on a and scans", self.make("fronts, verdict"))
+        for name in ("judged", "arguments", "onset", "law as printed", "centre of the box"):
             self.assertIn("a disc-gear", self.make(name))
-        self.assertIn("| 5 % | 3.0 (9.0) | 2 | 4 |", self.make("cutoff sweep"))
-        self.assertIn("| 512 | 3.0 (9.0) | 2 | 4 |", self.make("triangle sweep"))
+        self.assertEqual(self.make("judged poses"), "25")
+        self.assertIn("| 2 of 20 | 1.1 |", self.make("arguments"))
+        self.assertIn("The spring at the global minimum jumps on a, by up to 1.1 N.", self.make("one spring"))
+        self.assertIn("less than the one spring on a. One spring for each area (`grouped`) jumps on a, by up to 0.2 N.", self.make("one spring"))
+        self.assertIn("on a it takes more than 1 ms", self.make("all pairs"))
+        self.assertIn("| 5 % | 300,000 (5,000,000) | 3.0 (9.0) | 2 | 4 |", self.make("cutoff sweep"))
+        self.assertIn("| 512 | 300,000 (5,000,000) | 3.0 (9.0) | 2 | 4 |", self.make("triangle sweep"))
+        self.assertEqual(self.make("longest answer of the paper's"), "300 ms at the median and 5.0 s at most")
 
     def test_name_what_the_springs_miss(self):
         self.springs(shaken=0, failure="")
@@ -286,7 +338,17 @@ class FirstArrival(Folder):
         made = self.make("stress in the springs' modes")
         self.assertIn("**1 shaken**", made)
         self.assertIn("**missed** by rings", made)
-        self.assertIn("| springs | 100 | 1 of 1 | 1 | 5.0 |", self.make("low rates"))
+        self.assertIn("|  | 100 | 1, 1 of 1 | 5.0 | 5.0 |", self.make("low rates"))
+
+    def test_give_no_verdict_on_rates_where_trials_differ_in_length(self):
+        self.springs(shaken=1, failure="")
+        self.assertIn("The paper's claim does not hold: more are shaken than at 1 kHz by springs at 100 Hz", self.make("soft springs and rates"))
+        self.springs(shaken=0, failure="")
+        self.assertIn("The paper's claim holds", self.make("soft springs and rates"))
+        file = self.root / "tests/stress/results/rest_springs.csv"
+        file.write_text(file.read_text().replace("0123456789ab", "38b9f861875f"))
+        self.assertIn("Nothing follows on the paper's claim", self.make("soft springs and rates"))
+        self.assertIn("no verdict", self.make("stress in the springs' modes"))
 
     def springs(self, shaken, failure):
         modes = ("spring", "printed", "grouped")
@@ -294,8 +356,8 @@ class FirstArrival(Folder):
                    "mode,scene,ticks,energy gain J,largest force step N,springs held,failure\n"
                    + "".join(f"{mode},rings,1000,0.02,3,10,{failure}\n" for mode in modes))
         self.write("tests/stress/results/rest_springs.csv",
-                   "mode,scene,stiffness N/m,rate Hz,rough,handle rms um,force rms mN,largest force step N,energy gain J,at rest,shaken\n"
-                   + "".join(f"{mode},flat,200,100,0,5,2,0.1,0.01,1,{shaken}\n" for mode in modes))
+                   "mode,scene,stiffness wished N/m,rate Hz,rough,handle rms um,force rms mN,largest force step N,energy gain J,at rest,shaken\n"
+                   + "".join(f"{mode},flat,200,{rate},0,5,2,0.1,0.01,1,{shaken if rate == 100 else 0}\n" for mode in modes for rate in (1000, 100)))
         self.write("tests/stress/results/limit_springs.csv", "mode,simulated by enforced\n" + "".join(f"{m},2.1\n" for m in modes))
         self.write("tests/stress/results/hours_springs.csv",
                    "mode,ticks,force drift N,growth bytes\n" + "".join(f"{m},3600000,0,0\n" for m in modes))
@@ -345,12 +407,18 @@ class FirstArrival(Folder):
                    "Nearfit 1,glb,trimesh 5,11,no,1e-12,0,0,gltf-validator 2,3,0,no\n")
         self.assertIn("| `.step` | OCP 7 | 12 | yes | 1e-12 | 0 | 0 | none | right |", self.make("read back"))
         self.assertIn("| 3 errors, 0 warnings (gltf-validator 2) | **not right** |", self.make("read back"))
-        self.write(bench + "window_hour.csv",
+        self.assertEqual(scenes.readme_hour_row(Results(self.root)), [])
+        self.write(bench + "window_hour.csv", "# growth after the first tenth: 2097152 bytes\n"
                    "minute,memory_MB,ticks,overruns,late_p50_us,late_p99_us,late_p99_9_us,late_max_us,tick_p50_us,tick_p99_us,tick_max_us,"
                    "in_contact,pictures\n1,200,60000,0,1,20,30,900,20,40,80,0.5,900\n2,210,60000,3,1,20,30,2500,20,40,80,0.7,900\n")
         made = self.make("window hour")
         self.assertIn("120,000 ticks, in contact in 60 %", made)
         self.assertIn("| max | 900 us | 2.5 ms | 2.5 ms | 2.5 ms | 2 |", made)
+        self.assertIn("Memory grew by 2.0 MiB between the second tenth of the time and the last: met (16 MiB).", self.make("window hour, verdict"))
+        question, said, verdict = scenes.readme_hour_row(Results(self.root))[0]
+        self.assertIn("2 minutes of wall clock, 120,000 ticks", question)
+        self.assertEqual((said, verdict), ("memory grows by 2.0 MiB after the first tenth; lateness at most 2.5 ms, 3 ticks left out",
+                                           "met (16 MiB)"))
 
 
 if __name__ == "__main__":

@@ -6,13 +6,15 @@ import bench
 import numbers_text as n
 import others
 import paper
+import paper_arguments
 import readme
 import scenes
 import scripting
 import springs
 from results import FigureError
 
-FIGURES = {**readme.FIGURES, **bench.FIGURES, **others.FIGURES, **paper.FIGURES, **scenes.FIGURES, **scripting.FIGURES, **springs.FIGURES}
+FIGURES = {**readme.FIGURES, **bench.FIGURES, **others.FIGURES, **paper.FIGURES, **paper_arguments.FIGURES, **scenes.FIGURES,
+           **scripting.FIGURES, **springs.FIGURES}
 PICTURE = re.compile(r"picture (?P<file>\S+) as (?P<link>\S+): (?P<text>.+)")
 OF_COLUMNS = re.compile(r"csv (?P<file>\S+): (?P<columns>[^|]+?)(?: \| (?P<conditions>.+))?")
 

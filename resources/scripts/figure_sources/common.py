@@ -17,6 +17,14 @@ MACHINES = {"A": "with AVX-512, AVX-VNNI and VP2INTERSECT", "B": "with AVX-512, 
             "D": "without AVX-512", "C": "not described further by the files"}
 
 
+# Scenes of tests/stress whose name does not say what they are.
+STRESS_SCENES = {"huge": "`huge`, rings of 1 km", "tiny": "`tiny`, rings of 1 mm"}
+
+
+def stress_scene(name):
+    return STRESS_SCENES.get(name, f"`{name}`")
+
+
 def needs(*files, command="resources/scripts/measure"):
     """For a figure whose results may not be committed yet: it says so until they are."""
 
@@ -84,6 +92,6 @@ def sizes_in(text):
 
 
 def stale(table):
-    """A remark where a table stands on results that cannot be repeated."""
-    note = provenance.stale_note(table.file)
+    """A remark where a table stands on results that cannot be repeated as they are."""
+    note = provenance.note(table)
     return f" ({note})" if note else ""

@@ -37,6 +37,12 @@ def span(values, write=plain):
     return low if low == high else f"{low} to {high}"
 
 
+def listed(words):
+    """ "none", "a", "a and b", "a, b and c"."""
+    words = [str(word) for word in words] or ["none"]
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+
+
 def table(head, rows, right_from=1):
     """A Markdown table; columns from `right_from` on are aligned to the right."""
     rules = ["---" if i < right_from else "---:" for i in range(len(head))]

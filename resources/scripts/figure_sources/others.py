@@ -25,7 +25,7 @@ def stress(results):
          f"kilometre scene, {n.plain(hand.number('energy gain J', scene='huge'))} J, left out); work at most "
          f"{n.count(max(hand.numbers('most work')))}"],
         ["`rest`", "[rest.csv](results/rest.csv)",
-         f"{scenes} scenes: {n.count(sum(rest.numbers('at rest')))} of {n.count(len(rest.where()))} trials at rest; {'; '.join(parts)}"],
+         f"{scenes} scenes: {n.count(sum(rest.numbers('at rest')))} of {n.count(len(rest.where()))} trials at rest{_others(rest)}; {'; '.join(parts)}"],
         ["`limit`", "[limit.csv](results/limit.csv)",
          f"the simulated limit is {n.span(results.stress('limit').numbers('simulated by enforced'), lambda v: f'{v:.3f}')} times what is "
          f"enforced, over {len(results.stress('limit').where())} devices"],
@@ -36,6 +36,12 @@ def stress(results):
         ["`oracle`", "[oracle.txt](results/oracle.txt)", _oracle(results)],
     ]
     return n.table(["command", "table", "outcome"], rows, right_from=9)
+
+
+def _others(rest):
+    """The trials that are not at rest, by scene."""
+    moving = [c.stress_scene(row["scene"]) for row in rest.where() if row["at rest"] == "0"]
+    return f", the other {len(moving)} of {n.listed(sorted(set(moving)))}" if moving else ""
 
 
 def _oracle(results):

@@ -19,10 +19,12 @@ def result_files(results):
     return sorted(str(file.relative_to(results.root)) for file in found)
 
 
-def stale_note(file):
-    """Words for a reader where a table stands on a known stale file; empty where it does not."""
-    reasons = sorted(KNOWN.get(file, ()))
-    return ", ".join(reasons)
+def note(table):
+    """Words for a reader where a table stands on a known stale file, or on one of a busy machine; empty where it does not."""
+    reasons = set(KNOWN.get(table.file, ()))
+    if says_busy(table):
+        reasons.add("busy machine")
+    return ", ".join(sorted(reasons))
 
 
 def machine(table):

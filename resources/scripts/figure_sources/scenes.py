@@ -3,6 +3,7 @@
 import common as c
 import numbers_text as n
 
+HOUR = "tests/bench/results/window_hour.csv"
 UNITS = {"s": 1e6, "ms": 1e3, "us": 1.0}
 
 
@@ -84,7 +85,7 @@ def documents(results):
                     "ratio to it", "memory a triangle"], rows)
 
 
-@c.needs("tests/bench/results/window_hour.csv")
+@c.needs(HOUR, command="resources/scripts/measure --parts window-hour")
 def hour(results):
     """The first, the median and the worst minute of an open window."""
     table = results.bench("window_hour")
@@ -100,6 +101,39 @@ def hour(results):
     return n.table([f"{max(minutes):.0f} minutes, {n.count(sum(table.numbers('ticks')))} ticks, in contact in "
                     f"{n.plain(100 * sum(table.numbers('in_contact')) / len(minutes))} % of the snapshots shown", "first row", "median", "worst",
                     "last", "worst at minute"], rows)
+
+
+# Growth of memory after the first tenth that `nearfit-bench-window hour` allows [bytes]: kMaxHourGrowth of tests/bench/hour_row.h.
+MAX_HOUR_GROWTH = 16 << 20
+
+
+def _hour_growth(table):
+    return float(table.comment("growth after the first tenth:").split()[0])
+
+
+def _hour_verdict(table):
+    growth = _hour_growth(table)
+    said = "met" if growth <= MAX_HOUR_GROWTH else "**missed**"
+    touched = sum(table.numbers("in_contact")) > 0
+    return f"{said} (16 MiB)" + ("" if touched else "; **nothing was touched**")
+
+
+@c.needs(HOUR, command="resources/scripts/measure --parts window-hour")
+def hour_verdict(results):
+    """Growth of memory against its goal."""
+    table = results.bench("window_hour")
+    return (f"Memory grew by {_hour_growth(table) / (1 << 20):.1f} MiB between the second tenth of the time and the last: {_hour_verdict(table)}.")
+
+
+def readme_hour_row(results):
+    """A row of the README's table of stability, once there are results."""
+    if not results.has(HOUR):
+        return []
+    table = results.bench("window_hour")
+    return [[f"And with [the window open](tests/bench/results/README.md#an-hour)? {max(table.numbers('minute')):.0f} minutes of wall clock, "
+             f"{n.count(sum(table.numbers('ticks')))} ticks",
+             f"memory grows by {_hour_growth(table) / (1 << 20):.1f} MiB after the first tenth; lateness at most {n.time(max(table.numbers('late_max_us')))}, "
+             f"{n.count(sum(table.numbers('overruns')))} ticks left out", _hour_verdict(table)]]
 
 
 READ_BACK = "tests/app/results/read_back.csv"
@@ -118,4 +152,4 @@ def read_back(results):
 
 
 FIGURES = {"read back": read_back, "checks": checks, "verdicts": verdicts, "paths": paths, "suggestions": suggestions, "documents": documents,
-           "window hour": hour}
+           "window hour": hour, "window hour, verdict": hour_verdict}

@@ -3,11 +3,16 @@
 import common as c
 import numbers_text as n
 
-MODES = {"spring": "springs", "printed": "printed law", "grouped": "one spring for each area (`grouped`)"}
+MODES = {"spring": "springs", "printed": "printed law", "grouped": "grouped (one spring for each area)"}
 # What the hand may gain [J]: the proxy's 0.1 and what the passivity controller takes springs to hold.
 MAX_GAIN = 0.15
 # The force in the same place a cycle later [N], and growth of memory [bytes]: bounds of tests/stress/long_run.h.
 MAX_FORCE_DRIFT = 1e-3
+# At this revision trials had 3,000 ticks each and 3 s at least: 3 s from 1 kHz on, 6 s at 500 Hz, 15 s at 200 Hz and 30 s at 100 Hz. A hand that had
+# not calmed down after 3 s counted as shaken.
+UNLIKE_LENGTHS = "38b9f861875f"
+UNLIKE_NOTE = "lengths of trials compared, not rates: to be measured anew"
+SOFT, REFERENCE_RATE = ("40", "200"), 1000.0  # [N/m], [Hz]
 FILES = tuple(f"tests/stress/results/{name}_springs.csv" for name in ("hand", "rest", "limit", "hours"))
 
 
@@ -22,6 +27,10 @@ def _hand(results, mode):
             f"**missed** by {', '.join(failed)}" if failed else "met"]
 
 
+def _has_unlike_lengths(table):
+    return table.head.get("revision", "").startswith(UNLIKE_LENGTHS)
+
+
 def _rest(results, mode):
     table = results.stress("rest_springs")
     rows = table.where(mode=mode)
@@ -31,6 +40,7 @@ def _rest(results, mode):
     return [f"`rest`: {n.count(len(rows))} trials, {len({r['scene'] for r in rows})} scenes",
             f"{n.count(still)} at rest; worst {n.plain(float(worst['handle rms um']))} um ({worst['scene']}, "
             f"{n.plain(float(worst['rate Hz']))} Hz), {n.plain(max(float(r['force rms mN']) for r in rows))} mN",
+            f"no verdict ({UNLIKE_NOTE})" if _has_unlike_lengths(table) else
             f"**{n.count(shaken)} shaken**" if shaken else "no hand is shaken"]
 
 
@@ -58,26 +68,57 @@ def by_mode(results):
     return n.table(["mode", "run", "worst case", "verdict"], rows, right_from=9)
 
 
+def _wished(text):
+    """Order and name of a stiffness that is asked for."""
+    return (1, 0.0, "the limit") if text == "limit" else (0, float(text), f"{n.count(float(text))} N/m")
+
+
 @c.needs("tests/stress/results/rest_springs.csv")
 def low_rates(results):
-    """Rest and contact at each rate, in each mode of springs."""
+    """Trials at rest and hands shaken at each rate and wished stiffness, in each mode of springs."""
     table = results.stress("rest_springs")
+    wished = sorted({row["stiffness wished N/m"] for row in table.where()}, key=_wished)
     rows = []
     for mode, name in MODES.items():
-        rates = sorted({float(r["rate Hz"]) for r in table.where(mode=mode)}, reverse=True)
+        rates = sorted({float(row["rate Hz"]) for row in table.where(mode=mode)}, reverse=True)
         for rate in rates:
-            chosen = [r for r in table.where(mode=mode) if float(r["rate Hz"]) == rate]
-            steady = [r for r in chosen if r["rough"] == "0"]
-            rows.append(["" if rate != rates[0] else name, n.plain(rate),
-                         f"{sum(int(r['at rest']) for r in chosen)} of {len(chosen)}",
-                         sum(int(r["shaken"]) for r in chosen),
-                         n.plain(max(float(r["handle rms um"]) for r in steady)),
-                         n.plain(max(float(r["handle rms um"]) for r in chosen)),
-                         n.plain(max(float(r["largest force step N"]) for r in chosen)),
-                         n.plain(max(float(r["energy gain J"]) for r in chosen)),
-                         n.plain(max(float(r["stiffness N/m"]) for r in chosen))])
-    return n.table(["mode", "rate [Hz]", "trials at rest", "shaken", "worst rest, steady [um]", "with uneven periods [um]",
-                    "largest step of the force [N]", "energy gained [J]", "stiffness up to [N/m]"], rows)
+            at_rate = [row for row in table.where(mode=mode) if float(row["rate Hz"]) == rate]
+            cells = []
+            for stiffness in wished:
+                chosen = [row for row in at_rate if row["stiffness wished N/m"] == stiffness]
+                cells.append(f"{sum(int(row['at rest']) for row in chosen)}, {sum(int(row['shaken']) for row in chosen)} of {len(chosen)}")
+            for rows_of in ([row for row in at_rate if row["rough"] == "0"], at_rate):
+                cells.append(n.plain(max(float(row["handle rms um"]) for row in rows_of)) if rows_of else "-")
+            rows.append(["" if rate != rates[0] else name, n.plain(rate), *cells,
+                         n.plain(max(float(row["largest force step N"]) for row in at_rate)),
+                         n.plain(max(float(row["energy gain J"]) for row in at_rate))])
+    return n.table(["mode", "rate [Hz]", *(f"{_wished(stiffness)[2]}: at rest, shaken" for stiffness in wished),
+                    "worst rest, steady [um]", "with uneven periods [um]", "largest step of the force [N]", "energy gained [J]"], rows)
+
+
+@c.needs("tests/stress/results/rest_springs.csv")
+def soft_springs(results):
+    """The paper's claim that soft springs stand rates below 1 kHz."""
+    table = results.stress("rest_springs")
+    if _has_unlike_lengths(table):
+        return ("Nothing follows on the paper's claim from these trials: their lengths differ. They lasted 3 s at 1 kHz and above, 6 s at 500 Hz, 15 s at 200 Hz "
+                "and 30 s at 100 Hz, and a hand that had not calmed down after 3 s counts as shaken. To be measured anew, with trials of one length.")
+    said, worse = [], []
+    for mode in ("spring", "printed"):
+        shaken = {}
+        for row in table.where(mode=mode):
+            if row["stiffness wished N/m"] in SOFT:
+                counts = shaken.setdefault(float(row["rate Hz"]), [0, 0])
+                counts[0] += int(row["shaken"])
+                counts[1] += 1
+        low = {rate: counts for rate, counts in sorted(shaken.items(), reverse=True) if rate <= REFERENCE_RATE}
+        said.append(f"{MODES[mode]} {n.listed([f'{counts[0]} of {counts[1]} at {n.plain(rate)} Hz' for rate, counts in low.items()])}")
+        reference = low.get(REFERENCE_RATE, [0, 1])
+        worse += [f"{MODES[mode]} at {n.plain(rate)} Hz" for rate, counts in low.items()
+                  if counts[0] * reference[1] > reference[0] * counts[1]]
+    return (f"Hands shaken by soft springs, of {n.listed(SOFT)} N/m: {'; '.join(said)}. "
+            + (f"The paper's claim does not hold: more are shaken than at 1 kHz by {n.listed(worse)}." if worse else
+               "The paper's claim holds: at no rate below 1 kHz are more shaken than at 1 kHz."))
 
 
 def readme_row(results):
@@ -91,13 +132,15 @@ def readme_row(results):
     shaken = sum(int(r["shaken"]) for r in rest.where())
     ratio = min(results.stress("limit_springs").numbers("simulated by enforced"))
     drift = max(map(abs, results.stress("hours_springs").numbers("force drift N")))
+    is_unlike = _has_unlike_lengths(rest)
     missed = [name for name, is_missed in (
-        ("energy", gain > MAX_GAIN), ("the hand", failed), ("rest", shaken), ("stiffness", ratio <= 1.0),
+        ("energy", gain > MAX_GAIN), ("the hand", failed), ("rest", shaken and not is_unlike), ("stiffness", ratio <= 1.0),
         ("drift", drift > MAX_FORCE_DRIFT)) if is_missed]
     return [f"in [three modes](tests/stress/README.md#modes): a hand gains {n.plain(gain)} J of the {MAX_GAIN:g} J allowed; "
-            f"{n.count(sum(rest.numbers('at rest')))} of {n.count(len(rest.where()))} trials at rest down to 100 Hz, {shaken} hands shaken; "
-            f"limit {ratio:.3f} times the enforced one; drift {n.plain(drift)} N",
-            f"**missed**: {', '.join(missed)}" if missed else "met"]
+            + ("" if is_unlike else f"{n.count(sum(rest.numbers('at rest')))} of {n.count(len(rest.where()))} trials at rest down to 100 Hz, "
+               f"{shaken} hands shaken; ")
+            + f"limit {ratio:.3f} times the enforced one; drift {n.plain(drift)} N",
+            (f"**missed**: {', '.join(missed)}" if missed else "met") + (f"; rest: no verdict ({UNLIKE_NOTE})" if is_unlike else "")]
 
 
-FIGURES = {"stress in the springs' modes": by_mode, "low rates": low_rates}
+FIGURES = {"stress in the springs' modes": by_mode, "low rates": low_rates, "soft springs and rates": soft_springs}
