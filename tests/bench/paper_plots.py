@@ -20,7 +20,7 @@ sys.dont_write_bytecode = True  # The folder is the repository's.
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parents[1] / "resources" / "scripts" / "figure_sources"), str(HERE.parent / "evidence")]
 import fronts  # noqa: E402
-from plots import shrink  # noqa: E402  Of tests/evidence.
+from plots import shrink  # noqa: E402
 
 LOOKS = {  # Colour and marker.
     "nearfit-tracked": ("#c0392b", "o"), "nearfit-cold": ("#e08a1e", "s"), "fcl": ("#888888", "^"),

@@ -155,6 +155,9 @@ class Numbers(unittest.TestCase):
         written = {5.25: "5.2 us", 999.4: "999 us", 1500: "1.5 ms", 2.9e6: "2.9 s"}
         self.assertEqual({value: numbers_text.time(value) for value in written}, written)
 
+    def test_a_miss_that_reads_like_its_goal_has_a_digit_more(self):
+        self.assertEqual([numbers_text.beside_goal(value, 50, "ms") for value in (49, 50, 50.2, 51)], ["", "", "50.2 ms; goal ", ""])
+
     def test_a_verdict_names_each_goal_that_is_missed(self):
         self.assertEqual(numbers_text.verdict([("p50", 90, 100), ("p99", 400, 400)]), "met")
         self.assertEqual(numbers_text.verdict([("p50", 101, 100), ("p99", 1, 400)]), "**missed** at p50, goal 100 us")
@@ -324,9 +327,9 @@ class FirstArrival(Folder):
             self.assertIn("a disc-gear", self.make(name))
         self.assertEqual(self.make("judged poses"), "25")
         self.assertIn("| 2 of 20 | 1.1 |", self.make("arguments"))
-        self.assertIn("The spring at the global minimum jumps on a, by up to 1.1 N.", self.make("one spring"))
+        self.assertIn("The argument holds on a. The spring at the global minimum jumps on a, by up to 1.1 N.", self.make("one spring"))
         self.assertIn("less than the one spring on a. One spring for each area (`grouped`) jumps on a, by up to 0.2 N.", self.make("one spring"))
-        self.assertIn("on a it takes more than 1 ms", self.make("all pairs"))
+        self.assertIn("The argument holds on a, where a tick takes more than 1 ms.", self.make("all pairs"))
         self.assertIn("| 5 % | 300,000 (5,000,000) | 3.0 (9.0) | 2 | 4 |", self.make("cutoff sweep"))
         self.assertIn("| 512 | 300,000 (5,000,000) | 3.0 (9.0) | 2 | 4 |", self.make("triangle sweep"))
         self.assertEqual(self.make("longest answer of the paper's"), "300 ms at the median and 5.0 s at most")

@@ -79,8 +79,8 @@ def flats(results):
     cold, tracked, seeded, unseeded = (n.time(table.number("p50_us", scene="peg-hole", method=m))
                                        for m in ("nearfit-cold", "nearfit-tracked", "fcl-seeded", "fcl"))
     sizes = [n.count(table.number(column, scene="peg-hole", method="fcl")) for column in ("scene_triangles", "part_triangles")]
-    return (f"of {n.listed(sizes)} triangles, takes {cold} at p50 searched anew and {tracked} tracked; FCL takes {seeded}, and {unseeded} without the bound from its "
-            "last answer")
+    return (f"of {n.listed(sizes)} triangles, takes {cold} at p50 searched anew and {tracked} tracked; FCL takes {seeded}, and "
+            f"{unseeded} without the bound from its last answer")
 
 
 def pairs_that_miss(results):
@@ -237,7 +237,8 @@ def window(results):
         said = ""
         if row["goal_of"]:
             is_met = float(row[row["goal_of"]]) <= float(row["goal"])
-            said = f"{'met' if is_met else '**missed**'}: {row['goal_of']} {n.plain(float(row['goal']))} {unit}"
+            more = n.beside_goal(row[row["goal_of"]], row["goal"], unit)
+            said = f"{'met' if is_met else '**missed**'}: {more}{row['goal_of']} {n.plain(float(row['goal']))} {unit}"
         rows.append([f"`{row['figure']}`", row["way"], unit, *(n.plain(float(row[p])) for p in ("p50", "p99", "max")), said,
                      row["remark"]])
     return n.table(["figure", "way", "unit", "p50", "p99", "max", "goal", "remark"], rows, right_from=9)
@@ -318,13 +319,15 @@ def grouped_in_bowl(results):
     rows = sorted(results.bench("error").where(pair="sphere-bowl", method="exact grouped"), key=lambda row: float(row["fineness"]))
     force, extra = ([float(row[column]) for row in (rows[0], rows[-1])] for column in ("force_rms", "extra"))
     sums = _force_error(results, "exact cold")
-    return (f"off by {n.plain(force[0])} N on the coarsest mesh and by {n.plain(force[1])} N on the finest, with {n.plain(extra[0])} and {n.plain(extra[1])} minima a pose "
-            f"too many, where the sum is off by {sums} N at all finenesses")
+    return (f"off by {n.plain(force[0])} N on the coarsest mesh and by {n.plain(force[1])} N on the finest, with {n.plain(extra[0])} and "
+            f"{n.plain(extra[1])} minima a pose too many, where the sum is off by {sums} N at all finenesses")
 
 
 FIGURES = {
-    "queries": queries, "queries against their goals": query_goals, "queries that miss": query_goals_verdict, "queries of flats": flats,
-    "pairs that miss": pairs_that_miss, "build of a million": million, "far parts": far_parts, "ticks": ticks, "conforming ticks": conforming_ticks,
-    "ticks that miss": ticks_verdict, "smoothness": smoothness, "births": births, "jumps of one for each area": grouped_jumps, "skips": skips, "all of window": window,
-    "dense flats": dense, "curved faces": curved, "felt million": feel_million, "stale files": sources_note, "force in the bowl": bowl, "grouped in the bowl": grouped_in_bowl,
+    "queries": queries, "queries against their goals": query_goals, "queries that miss": query_goals_verdict,
+    "queries of flats": flats, "pairs that miss": pairs_that_miss, "build of a million": million, "far parts": far_parts,
+    "ticks": ticks, "conforming ticks": conforming_ticks, "ticks that miss": ticks_verdict, "smoothness": smoothness,
+    "births": births, "jumps of one for each area": grouped_jumps, "skips": skips, "all of window": window,
+    "dense flats": dense, "curved faces": curved, "felt million": feel_million, "stale files": sources_note,
+    "force in the bowl": bowl, "grouped in the bowl": grouped_in_bowl,
 }

@@ -50,6 +50,12 @@ def table(head, rows, right_from=1):
     return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
 
 
+def beside_goal(value, goal, unit):
+    """A missed value with a digit more, where it would read like its goal; else nothing."""
+    value, goal = float(value), float(goal)
+    return f"{value:.3g} {unit}; goal " if value > goal and plain(value) == plain(goal) else ""
+
+
 def verdict(checks):
     """`checks`: (name, value, goal) of figures that must be at most their goals. "met", or what is missed."""
     missed = [f"{name}, goal {time(goal)}" for name, value, goal in checks if value > goal]

@@ -25,7 +25,8 @@ def stress(results):
          f"kilometre scene, {n.plain(hand.number('energy gain J', scene='huge'))} J, left out); work at most "
          f"{n.count(max(hand.numbers('most work')))}"],
         ["`rest`", "[rest.csv](results/rest.csv)",
-         f"{scenes} scenes: {n.count(sum(rest.numbers('at rest')))} of {n.count(len(rest.where()))} trials at rest{_others(rest)}; {'; '.join(parts)}"],
+         f"{scenes} scenes: {n.count(sum(rest.numbers('at rest')))} of {n.count(len(rest.where()))} trials at rest{_others(rest)}; "
+         f"{'; '.join(parts)}"],
         ["`limit`", "[limit.csv](results/limit.csv)",
          f"the simulated limit is {n.span(results.stress('limit').numbers('simulated by enforced'), lambda v: f'{v:.3f}')} times what is "
          f"enforced, over {len(results.stress('limit').where())} devices"],

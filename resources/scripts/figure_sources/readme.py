@@ -153,10 +153,8 @@ def _window_row(table, what, drawn, figure, way):
     said = ""
     if goal_of:
         is_met = values[goal_of] <= goal
-        value, limit = n.time(scale * values[goal_of]), n.time(scale * goal)
-        # Where a miss reads like its goal, a digit more tells them apart.
-        more = f"{values[goal_of]:.3g} {table.text('unit', **where)}; " if not is_met and value == limit else ""
-        said = f"{'met' if is_met else '**missed**'} ({more}{goal_of} {limit})"
+        more = n.beside_goal(values[goal_of], goal, table.text("unit", **where))
+        said = f"{'met' if is_met else '**missed**'} ({more}{goal_of} {n.time(scale * goal)})"
     return [what, drawn, *(n.time(scale * values[p]) for p in ("p50", "p99", "max")), said]
 
 
@@ -191,7 +189,8 @@ def window(results):
         _window_row(table, f"pick among a million triangles; {n.count(hits)} of {n.count(picks)} hit, so that the median is of a miss",
                     "", "pick", c.the_way(table, "pick", "1")),
     ]
-    return n.table(["what, on machine " + c.machine_letter(table), "triangles and lines of edges drawn", "p50", "p99", "max", "goal"], rows, right_from=9)
+    return n.table(["what, on machine " + c.machine_letter(table), "triangles and lines of edges drawn", "p50", "p99", "max", "goal"], rows,
+                   right_from=9)
 
 
 def hierarchy(results):

@@ -132,8 +132,8 @@ def readme_hour_row(results):
     table = results.bench("window_hour")
     return [[f"And with [the window open](tests/bench/results/README.md#an-hour)? {max(table.numbers('minute')):.0f} minutes of wall clock, "
              f"{n.count(sum(table.numbers('ticks')))} ticks",
-             f"memory grows by {_hour_growth(table) / (1 << 20):.1f} MiB after the first tenth; lateness at most {n.time(max(table.numbers('late_max_us')))}, "
-             f"{n.count(sum(table.numbers('overruns')))} ticks left out", _hour_verdict(table)]]
+             f"memory grows by {_hour_growth(table) / (1 << 20):.1f} MiB after the first tenth; lateness at most "
+             f"{n.time(max(table.numbers('late_max_us')))}, {n.count(sum(table.numbers('overruns')))} ticks left out", _hour_verdict(table)]]
 
 
 READ_BACK = "tests/app/results/read_back.csv"

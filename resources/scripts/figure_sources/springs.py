@@ -101,8 +101,9 @@ def soft_springs(results):
     """The paper's claim that soft springs stand rates below 1 kHz."""
     table = results.stress("rest_springs")
     if _has_unlike_lengths(table):
-        return ("Nothing follows on the paper's claim from these trials: their lengths differ. They lasted 3 s at 1 kHz and above, 6 s at 500 Hz, 15 s at 200 Hz "
-                "and 30 s at 100 Hz, and a hand that had not calmed down after 3 s counts as shaken. To be measured anew, with trials of one length.")
+        return ("Nothing follows on the paper's claim from these trials: their lengths differ. They lasted 3 s at 1 kHz and above, 6 s at "
+                "500 Hz, 15 s at 200 Hz and 30 s at 100 Hz, and a hand that had not calmed down after 3 s counts as shaken. To be measured "
+                "anew, with trials of one length.")
     said, worse = [], []
     for mode in ("spring", "printed"):
         shaken = {}
