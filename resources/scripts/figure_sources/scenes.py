@@ -1,7 +1,10 @@
 """Tables of whole scenes and documents: checks, verdicts, paths, suggestions, imports, and the hour with the window open."""
 
+import re
+
 import common as c
 import numbers_text as n
+from results import FigureError
 
 HOUR = "tests/bench/results/window_hour.csv"
 UNITS = {"s": 1e6, "ms": 1e3, "us": 1.0}
@@ -35,6 +38,26 @@ def checks(results):
                      _of_unit(float(row["worst"]), row["unit"]), _goal(row), row["remark"]])
         last = name
     return n.table(["scene", "method", "figure", "median", "worst", "goal", "remark"], rows, right_from=9)
+
+
+def _check_setting(results, pattern):
+    """A setting of the run, by a line of the file's head."""
+    table = results.bench("check")
+    found = next((said for said in (re.search(pattern, comment) for comment in table.comments) if said), None)
+    if not found:
+        raise FigureError(table.file, f'no line of its head has "{pattern}"', "measure it anew")
+    return found.group(1)
+
+
+@c.needs("tests/bench/results/check.csv")
+def check_turns(results):
+    turns = int(_check_setting(results, r"^(\d+) turns"))
+    return "one turn, which is `median` and `worst`" if turns == 1 else f"{turns} turns"
+
+
+@c.needs("tests/bench/results/check.csv")
+def peer_seconds(results):
+    return _check_setting(results, r"end after (\S+) s")
 
 
 @c.needs("tests/bench/results/verdicts.csv")
@@ -151,5 +174,7 @@ def read_back(results):
                     "shapes not shared", "validator", "outcome"], rows, right_from=9)
 
 
-FIGURES = {"read back": read_back, "checks": checks, "verdicts": verdicts, "paths": paths, "suggestions": suggestions, "documents": documents,
-           "window hour": hour, "window hour, verdict": hour_verdict}
+FIGURES = {
+    "read back": read_back, "checks": checks, "turns of the check": check_turns, "seconds of a peer": peer_seconds, "verdicts": verdicts,
+    "paths": paths, "suggestions": suggestions, "documents": documents, "window hour": hour, "window hour, verdict": hour_verdict,
+}
