@@ -55,7 +55,7 @@ def read(file):
     for row in csv.DictReader(line for line in lines if not line.startswith("#")):
         rows.append({k: v if k in ("pair", "method") else float(v) for k, v in row.items()})
         rows[-1]["method"] = NAMES.get(row["method"], row["method"])
-        # What all threads take; older files do not say what is done beside an answer.
+        # Time of all threads; older files do not say what is done beside an answer.
         aside = rows[-1].get("aside_us", 0.0)
         rows[-1]["paid_us"], rows[-1]["paid_p99_us"] = rows[-1]["p50_us"] + aside, rows[-1]["p99_us"] + aside
     return Table([line[2:] for line in lines if line.startswith("#")], rows)
@@ -68,7 +68,7 @@ def error(row, quantity):
 
 
 def front(rows, quantity):
-    """Of all methods that programs use and all meshes, those that none beats in both time and error; fastest first."""
+    """Rows of all methods that programs use, on all meshes, that none beats; fastest first."""
     return [p[3] for p in fronts.front([(r["paid_us"], error(r, quantity), r["method"], r) for r in rows])]
 
 

@@ -86,7 +86,7 @@ def in_words(errors, unit):
 
 
 def exact_times(table, pair, quantity, rows):
-    """How many times as long the fastest exact method takes for as small an error, for each row; None: it has none so small."""
+    """For each row, the fastest exact method's time for as small an error, in times of the row's; None if it has none so small."""
     exact = [r for m in table.methods if data.is_exact(m) for r in table.of(pair, m)]
     limits = [data.error(r, quantity) * data.MARGIN for r in rows]
     times = [data.time_to(exact, quantity, limit) for limit in limits]
@@ -116,7 +116,7 @@ def is_won(table, pair, quantity, row):
 
 
 def won_fronts(table):
-    """What parts of a front a method holds that is not exact: where it misses no minimum, and where it misses some."""
+    """Parts of fronts that methods hold that are not exact: (where they miss no minimum, where they miss some)."""
     whole, partial = [], []
     for quantity in data.QUANTITIES:
         for pair in table.pairs:
@@ -143,7 +143,7 @@ def win_lines(table):
 
 
 def shares(table):
-    """How much of all fronts each method holds: points on them, of points on them."""
+    """Each method's share of all fronts: its points on them, of all points on them."""
     rows = []
     for quantity, (_, name, _, _) in data.QUANTITIES.items():
         points = [r for p in table.pairs for r in data.front([r for r in table.rows if r["pair"] == p], quantity)]

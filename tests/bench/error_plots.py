@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 import error_data as data
-from plots import COLOURS, GREY, shrink  # Of tests/evidence.
+from plots import COLOURS, GREY, shrink  # Lies in tests/evidence.
 
 INK, PALE, FRONT = "#333333", "#e9e9e9", "#f2dc9b"
 STYLES = {  # Colour, marker, line.
@@ -163,7 +163,7 @@ def _falling(axes, table, method, quantity, colours):
 
 
 def convergence(table, file):
-    """How the exact engine's errors fall with the edges' length."""
+    """Errors of the exact engine against the edges' length."""
     panels = [("exact cold", "distance", "distance [m]"), ("exact cold", "position", "position [m]"),
               ("exact cold", "direction", "direction [rad]"), ("exact cold", "force", "force [N], a spring each minimum"),
               ("grouped", "force", "force [N], a spring each group")]

@@ -27,14 +27,14 @@ def main(source, picture):
     minutes = [row["minute"] for row in data]
     figure, (memory, lateness) = plt.subplots(2, 1, figsize=(9, 6.5), sharex=True)
     memory.plot(minutes, [row["memory_MB"] for row in data], color="#7d3c98")
-    memory.set_ylim(bottom=0)
+    memory.set_ylim(0, 1.2 * max(row["memory_MB"] for row in data))
     memory.set_ylabel("resident memory [MB]")
     for column, name, colour in LATENESS:
         lateness.plot(minutes, [max(row[column], 0.1) for row in data], label=name, color=colour)
     lateness.set_yscale("log")
     lateness.set_ylabel("lateness of ticks [us]")
     lateness.set_xlabel("wall clock [min]")
-    lateness.legend(fontsize=8, ncol=4)
+    lateness.legend(fontsize=8, ncol=4, loc="upper center", bbox_to_anchor=(0.5, -0.16), frameon=False)  # Below the data.
     for panel in (memory, lateness):
         panel.grid(True, which="both", alpha=0.25)
     figure.suptitle("The demo in the scripted hand, its window open")

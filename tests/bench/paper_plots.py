@@ -198,7 +198,7 @@ def stands_out(change):
 
 
 def jumps_in_words(rows, scene, mode):
-    """What halving the motion of the largest changes found, by the file of figures."""
+    """Jumps found by halving the motion of the largest changes, from the file of figures."""
     found = {r["quantity"]: r for r in of(rows, part="arguments", scene=scene, method=mode)}
     if "ticks with a jump" not in found:
         return "jumps not examined"

@@ -40,7 +40,7 @@ def queries(results):
                     "minima at most", "FCL, min distance alone: p50", "p99", "max"], rows)
 
 
-# How many times as fast as FCL a query is to be, at p50 and p99; and p99.9 of the tracked pair of a million triangles [us].
+# Goals of a query, in times as fast as FCL at p50 and p99; and of p99.9 of the tracked pair of a million triangles [us].
 QUERY_GOALS = {"nearfit-cold": ("searched anew", 4.0), "nearfit-tracked": ("tracked", 25.0)}
 MAX_MILLION = 200.0
 
@@ -180,7 +180,7 @@ def smoothness(results):
 
 
 def births(results):
-    """How large the jumps of the springs' modes are where a minimum comes or goes within the cutoff."""
+    """Jumps of the springs' modes where a minimum comes or goes within the cutoff."""
     table = results.bench("feel")
     rows = []
     for scene, name in c.CONFORMING.items():

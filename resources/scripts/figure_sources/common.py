@@ -1,4 +1,4 @@
-"""What several tables say: names of pairs and scenes, machines by letter, goals, and rows of the same kind."""
+"""Words that several tables share: names of pairs and scenes, machines by letter, goals, and rows of the same kind."""
 
 import functools
 import re

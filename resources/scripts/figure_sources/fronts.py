@@ -1,4 +1,4 @@
-"""Who is on the front of time against error: one definition for tables, plots and pages."""
+"""The front of time against error: one definition for tables, plots and pages."""
 
 # Times and errors that differ by less are equal: the same method, timed twice, differs by that much.
 MARGIN = 1.02
@@ -20,7 +20,7 @@ def _beats(one, other):
 
 
 def front(points):
-    """Those of `points`, (time, error, method, ...), that no other beats; fastest first. Errors may be NaN: nothing found."""
+    """Returns the `points`, (time, error, method, ...), that no other beats; fastest first. A NaN error says that nothing was found."""
     known = [(p, (p[0], max(p[1], FLOOR))) for p in points if p[1] == p[1] and not is_only_measured(p[2])]
     kept = [p for p, place in known if not any(_beats(other, place) for _, other in known)]
     return sorted(kept, key=lambda p: p[:2])

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 
-# As kBusyProcessors and kWatch of tests/bench/run_rules.cpp: a build or a test keeps a whole processor at work, a quiet
+# Equal to kBusyProcessors and kWatch of tests/bench/run_rules.cpp: a build or a test keeps a whole processor at work, a quiet
 # machine far less; half a second resolves a fiftieth of a processor.
 BUSY_PROCESSORS = 0.25
 WATCH_SECONDS = 0.5
@@ -54,7 +54,7 @@ def changes(root):
 
 
 def revision(root):
-    """Of the tree, "-dirty" behind it where it differs; "unknown" without git."""
+    """Revision of the tree, "-dirty" behind it where it differs; "unknown" without git."""
     name, differs = _git(root, "rev-parse", "--short=12", "HEAD"), changes(root)
     if not name or differs is None:
         return "unknown"
@@ -84,7 +84,7 @@ def check_repeatable(file, root, at_work, allows_busy):
 
 
 def _compiler(build):
-    """What CMake says that it compiled with in a build folder."""
+    """The compiler that CMake names in a build folder."""
     for file in sorted(pathlib.Path(build).glob("CMakeFiles/*/CMakeCXXCompiler.cmake")):
         text = file.read_text()
         names = [re.search(rf'set\(CMAKE_CXX_COMPILER_{what} "([^"]+)"\)', text) for what in ("ID", "VERSION")]

@@ -1,8 +1,8 @@
-"""How figures are written: two digits below a hundred, whole numbers above, thousands with a comma."""
+"""Figures as text: two digits below a hundred, whole numbers above, thousands with a comma."""
 
 
 def plain(value):
-    """Of a figure without unit."""
+    """A figure without unit."""
     if value == 0:
         return "0"
     size = abs(value)

@@ -125,7 +125,7 @@ def appendix_in_short(results):
 
 @NEEDED
 def built(results):
-    """How long the hierarchies of the appendix's rows take to build."""
+    """Time to build the hierarchies of the appendix's rows."""
     figures = _appendix(results)
     paper, ours = ([value for value, _ in figures.over_scenes(m, "build [s]")] for m in ("paper-spans", "nearfit"))
     return f"{n.span(paper)} s for the baseline's on one core, and {n.span(ours)} s for Nearfit's on all"
@@ -229,7 +229,7 @@ def prepared(results):
 
 @NEEDED
 def front_verdict(results):
-    """Who is on how many fronts."""
+    """The holders of the fronts, with their rows."""
     holders = {}
     for scene, points in _judged_points(results):
         for point in fronts.front(points):

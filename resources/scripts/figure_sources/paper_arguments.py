@@ -196,7 +196,7 @@ def _growth(figures, scene, method, settings):
 
 @NEEDED
 def cutoff_verdict(results):
-    """How many times as long the largest cutoff takes as the least."""
+    """Median time at the largest cutoff in times of that at the least."""
     figures = Figures(results, "cutoff")
     said = []
     for method in figures.methods("query [us]"):

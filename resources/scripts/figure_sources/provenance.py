@@ -4,7 +4,7 @@ import pathlib
 import re
 import subprocess
 
-# What is the matter with committed results, until `resources/scripts/measure` makes them anew. A file leaves this list as
+# Known faults of committed results, until `resources/scripts/measure` makes them anew. A file leaves this list as
 # soon as it is mended (the check fails where the list says more than there is), and none is added.
 KNOWN = {
     "tests/stress/results/hand.csv": {"no load"},

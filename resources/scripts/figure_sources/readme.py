@@ -39,7 +39,7 @@ def sources(results):
 
 
 def machines(results):
-    """What the heads say of each machine, a sentence each."""
+    """Each machine by the heads of its files, a sentence each."""
     said = {}
     for file in provenance.result_files(results):
         table = results.table(file)

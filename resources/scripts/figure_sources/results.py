@@ -6,7 +6,7 @@ import pathlib
 
 
 class FigureError(Exception):
-    """What is wrong with a figure, where, and what to do."""
+    """A fault of a figure: where, what, and the remedy."""
 
     def __init__(self, where, what, remedy):
         super().__init__(f"{where}: {what}; {remedy}")
@@ -58,7 +58,7 @@ class Table:
         return self._number(column, self.text(column, **conditions))
 
     def numbers(self, column, **conditions):
-        """Of each row with these values, in the order of the file."""
+        """Values of a column in each row with these values, in the order of the file."""
         self._known(column)
         return [self._number(column, row[column]) for row in self.where(**conditions)]
 

@@ -46,7 +46,7 @@ def _quantity(value, unit):
     return n.times(value) if unit.startswith("times") else f"{n.plain(value)} {unit}"
 
 
-# How many times as fast two workers are to be.
+# Goal of two workers, in times as fast as one.
 LEAST_SPEEDUP = 1.8
 
 

@@ -4,7 +4,7 @@ import common as c
 import numbers_text as n
 
 MODES = {"spring": "springs", "printed": "printed law", "grouped": "grouped (one spring for each area)"}
-# What the hand may gain [J]: the proxy's 0.1 and what the passivity controller takes springs to hold.
+# Energy that the hand may gain [J]: the proxy's 0.1 and the share that the passivity controller takes springs to hold.
 MAX_GAIN = 0.15
 # The force in the same place a cycle later [N], and growth of memory [bytes]: bounds of tests/stress/long_run.h.
 MAX_FORCE_DRIFT = 1e-3
