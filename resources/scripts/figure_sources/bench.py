@@ -1,6 +1,7 @@
 """Tables and figures of tests/bench/results/README.md."""
 
 import common as c
+import fronts
 import numbers_text as n
 import provenance
 
@@ -314,6 +315,28 @@ def bowl(results):
                     "extra a pose"], rows)
 
 
+def _holders(results, column):
+    """Methods on the fronts of the solids, among those that miss no minimum, by the number of pairs."""
+    table = results.bench("error")
+    pairs = list(dict.fromkeys(row["pair"] for row in table.where()))
+    counts = {}
+    for pair in pairs:
+        points = [(float(row["p50_us"]) + float(row["aside_us"]), float(row[column]), METHOD_NAMES.get(row["method"], row["method"]))
+                  for row in table.where(pair=pair) if float(row["missed"]) == 0 and not fronts.is_only_measured(row["method"])]
+        for method in {point[2] for point in fronts.front(points)}:
+            counts[method] = counts.get(method, 0) + 1
+    ordered = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
+    return f"{n.listed([f'*{method}* on {count}' for method, count in ordered])} of {len(pairs)} pairs"
+
+
+def holders_of_distance(results):
+    return _holders(results, "distance_rms_m")
+
+
+def holders_of_force(results):
+    return _holders(results, "force_rms")
+
+
 def grouped_in_bowl(results):
     """The error of the grouped force at the coarsest and the finest mesh, and the minima that it keeps too many."""
     rows = sorted(results.bench("error").where(pair="sphere-bowl", method="exact grouped"), key=lambda row: float(row["fineness"]))
@@ -329,5 +352,5 @@ FIGURES = {
     "ticks": ticks, "conforming ticks": conforming_ticks, "ticks that miss": ticks_verdict, "smoothness": smoothness,
     "births": births, "jumps of one for each area": grouped_jumps, "skips": skips, "all of window": window,
     "dense flats": dense, "curved faces": curved, "felt million": feel_million, "stale files": sources_note,
-    "force in the bowl": bowl, "grouped in the bowl": grouped_in_bowl,
+    "fronts of distance": holders_of_distance, "fronts of force": holders_of_force, "force in the bowl": bowl, "grouped in the bowl": grouped_in_bowl,
 }

@@ -174,8 +174,8 @@ def _sweep(results, part, head):
                            for m in methods),
                          figures.text(scene, "nearfit-cold", "minima", "p50", n.count, setting),
                          figures.text(scene, "nearfit-cold", "minima", "max", n.count, setting)])
-    return n.table(["row" if part == "cutoff" else "bodies", head, *(f"{SHOWN.get(m, m)} [us]: p50 (max)" for m in methods), "exact minima: p50", "max"],
-                   rows)
+    return n.table(["row" if part == "cutoff" else "bodies", head, *(f"{SHOWN.get(m, m)} [us]: p50 (max)" for m in methods),
+                    "exact minima: p50", "max"], rows)
 
 
 @NEEDED
