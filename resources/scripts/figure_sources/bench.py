@@ -212,7 +212,13 @@ def grouped_jumps(results):
     for way, words in (("x10", "On the refined way"), ("x1", "on the plain one")):
         parts = [f"{word} on {n.listed(scenes)}" for word, scenes in zip(("less", "as large", "larger"), _against_the_sum(table, way)) if scenes]
         said.append(f"{words} it is {', '.join(parts)}")
-    return f"{'; '.join(said)}."
+    less_fallen = []
+    for scene, name in c.CONFORMING.items():
+        grouped, summed = (_felt(table, scene, mode, "x10", "force change ratio", "p99") for mode in ("grouped", "spring"))
+        if grouped < 0.95 * summed:
+            less_fallen.append(f"{name} ({n.times(grouped)} for {n.times(summed)} times)")
+    return f"{'; '.join(said)}." + (f" Refined ten times, the change at p99 falls less than that of the sum on {n.listed(less_fallen)}."
+                                    if less_fallen else "")
 
 
 def skips(results):
