@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -80,12 +81,57 @@ glm::dvec3 torqueOf(const glm::dvec3& load, const glm::dvec3& turn) noexcept {
   return load - 0.5 * across + bend * glm::cross(turn, across);
 }
 
-/// Energy of a spring whose force or torque, of length `size`, is clamped at a limit: the integral of what
-/// is rendered along the straight way. Leaves out that the torque of large rotations grows a little less
-/// than the rotation.
-double storedIn(const glm::dvec3& load, double size, const glm::dvec3& stretch, double limit) noexcept {
-  const double rendered = size > limit ? limit / size : 1.0;
-  return rendered * (1.0 - 0.5 * rendered) * glm::dot(load, stretch);
+/// By this much and the square of the turn, the torque about an axis of small gyration grows faster than the metric says,
+/// times the square of how much larger another gyration is; and the max of it at which a step by the metric still does not
+/// overshoot.
+constexpr double kBendOfTorque = 1.0 / 12.0, kMaxSteepness = 0.5;
+
+/// Spring and damper between two poses.
+struct CouplingLoad {
+  Stretch stretch;
+  glm::dvec3 force, load;  ///< Of the spring; `load` as in torqueOf().
+  glm::dvec3 torque;       ///< Of the spring.
+};
+
+CouplingLoad loadOf(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
+                    const RigidTransform& handle, const RigidTransform& part) noexcept {
+  CouplingLoad load;
+  load.stretch = stretchOf(centreInPart, handle, part);
+  load.force = coupling.stiffness * load.stretch.shift;
+  load.load = byGyration(metric, part, coupling.rotationalStiffness * load.stretch.turn);
+  load.torque = torqueOf(load.load, load.stretch.turn);
+  return load;
+}
+
+/// Wrench of the damper.
+Wrench dampingOf(const CouplingState& coupling, const MassMetric& metric, const BodyMotion& handle,
+                 const BodyMotion& part) noexcept {
+  return {coupling.damping * (part.twist.linear - handle.twist.linear),
+          byGyration(metric, part.pose,
+                     coupling.rotationalDamping * (part.twist.angular - handle.twist.angular))};
+}
+
+/// The spring with its torque clamped and nothing else limited.
+struct TorqueLimited {
+  double share = 1.0;   ///< Of the torque.
+  double energy = 0.0;  ///< [J]
+  double limit =
+      0.0;  ///< Energy beyond which force and torque are scaled down [J]; infinity without a force.
+};
+
+TorqueLimited torqueLimited(const CouplingState& coupling, const CouplingLoad& load,
+                            const DeviceLimits& limits) noexcept {
+  TorqueLimited result;
+  const double torque = glm::length(load.torque);
+  if (torque > limits.maxTorque) result.share = limits.maxTorque / torque;
+  // The integral of what is rendered along the straight way. Leaves out that the torque of large rotations grows a
+  // little less than the rotation.
+  result.energy = result.share * (1.0 - 0.5 * result.share) * glm::dot(load.load, load.stretch.turn);
+  result.limit = std::numeric_limits<double>::infinity();
+  if (!(limits.maxForce > 0.0) || !(coupling.stiffness > 0.0)) return result;
+  result.energy += 0.5 * glm::dot(load.force, load.stretch.shift);
+  result.limit = 0.5 * limits.maxForce * limits.maxForce / coupling.stiffness;
+  return result;
 }
 
 }  // namespace
@@ -123,24 +169,43 @@ glm::dvec3 turnBetween(const glm::dquat& from, const glm::dquat& to) noexcept {
   return rotationVector(to * glm::conjugate(from));
 }
 
+glm::dvec3 steepestTurn(const glm::dvec3& turn, const glm::dvec3& gyration) noexcept {
+  const glm::dvec3 inertia = gyration * gyration;
+  // The turn from the hand to the part is the opposite one, and the torque on the part that on the hand.
+  const glm::dvec3 correction = -torqueOf(-inertia * turn, -turn) / inertia - turn;
+  const double largest = std::max({inertia.x, inertia.y, inertia.z});
+  const double smallest = std::min({inertia.x, inertia.y, inertia.z});
+  const double steepness = kBendOfTorque * glm::dot(turn, turn) * largest / smallest;
+  return turn + (steepness > kMaxSteepness ? kMaxSteepness / steepness : 1.0) * correction;
+}
+
 Wrench couplingWrench(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
                       const BodyMotion& handle, const BodyMotion& part) noexcept {
-  const Stretch stretch = stretchOf(centreInPart, handle.pose, part.pose);
-  const glm::dvec3 load = byGyration(metric, part.pose, coupling.rotationalStiffness * stretch.turn);
-  const glm::dvec3 damping =
-      byGyration(metric, part.pose, coupling.rotationalDamping * (part.twist.angular - handle.twist.angular));
-  return {coupling.stiffness * stretch.shift + coupling.damping * (part.twist.linear - handle.twist.linear),
-          torqueOf(load, stretch.turn) + damping};
+  const CouplingLoad spring = loadOf(coupling, metric, centreInPart, handle.pose, part.pose);
+  const Wrench damper = dampingOf(coupling, metric, handle, part);
+  return {spring.force + damper.force, spring.torque + damper.torque};
+}
+
+LimitedCoupling limitedCoupling(const CouplingState& coupling, const MassMetric& metric,
+                                const glm::dvec3& centreInPart, const BodyMotion& handle,
+                                const BodyMotion& part, const DeviceLimits& limits) noexcept {
+  const CouplingLoad spring = loadOf(coupling, metric, centreInPart, handle.pose, part.pose);
+  const Wrench damper = dampingOf(coupling, metric, handle, part);
+  const TorqueLimited limited = torqueLimited(coupling, spring, limits);
+  const double share = limited.energy > limited.limit ? std::sqrt(limited.limit / limited.energy) : 1.0;
+  const double forceShare = limits.maxForce > 0.0 ? share : 0.0;
+  return {
+      {spring.force + damper.force, spring.torque + damper.torque},
+      {forceShare * (spring.force + damper.force), share * (limited.share * spring.torque + damper.torque)}};
 }
 
 double storedEnergy(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
                     const RigidTransform& handle, const RigidTransform& part,
                     const DeviceLimits& limits) noexcept {
-  const Stretch stretch = stretchOf(centreInPart, handle, part);
-  const glm::dvec3 load = byGyration(metric, part, coupling.rotationalStiffness * stretch.turn);
-  const glm::dvec3 force = coupling.stiffness * stretch.shift;
-  return storedIn(force, glm::length(force), stretch.shift, limits.maxForce) +
-         storedIn(load, glm::length(torqueOf(load, stretch.turn)), stretch.turn, limits.maxTorque);
+  const CouplingLoad spring = loadOf(coupling, metric, centreInPart, handle, part);
+  const TorqueLimited limited = torqueLimited(coupling, spring, limits);
+  if (!(limited.energy > limited.limit)) return limited.energy;
+  return 2.0 * std::sqrt(limited.limit * limited.energy) - limited.limit;
 }
 
 }  // namespace nearfit

@@ -84,11 +84,40 @@ inline constexpr double kTurnScaleWithoutTorque = kMinTurnScale;
 Wrench couplingWrench(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
                       const BodyMotion& handle, const BodyMotion& part) noexcept;
 
-/// Energy in the spring between two poses [J], without what it could not give back because force and torque
-/// are clamped to the limits: beyond these it grows linearly with the distance. Real-time safe.
+/// What a coupling asks for, and what the device's limits leave of it.
+struct LimitedCoupling {
+  Wrench wanted;    ///< couplingWrench().
+  Wrench rendered;  ///< Within the limits, but for damping beyond them.
+};
+
+/// couplingWrench() before and after the device's limits.
+///
+/// The torque is clamped to its limit. One factor then scales force and torque together, so that the wrench stays
+/// square to what contacts leave free; a force that is clamped alone leaves a component along it, which drags. The
+/// factor depends only on the spring's energy E: sqrt(M / E) beyond M = maxForce^2 / (2 stiffness), where a spring
+/// that is only shifted reaches the max force. So the wrench is the derivative of storedEnergy() for the same limits,
+/// and no closed path gains energy. The force stays within its limit; a torque without force stays below maxForce times
+/// sqrt(rotationalStiffness / stiffness) too.
+///
+/// A limit of 0 renders no force or no torque, and the other as without it. NaN and infinity propagate. Real-time safe.
+LimitedCoupling limitedCoupling(const CouplingState& coupling, const MassMetric& metric,
+                                const glm::dvec3& centreInPart, const BodyMotion& handle,
+                                const BodyMotion& part, const DeviceLimits& limits) noexcept;
+
+/// Energy in the spring between two poses [J], as limitedCoupling() renders it: beyond the limits it grows linearly
+/// with the distance, since only so much comes back. Real-time safe.
 double storedEnergy(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
                     const RigidTransform& handle, const RigidTransform& part,
                     const DeviceLimits& limits) noexcept;
+
+/// Turn in whose direction the coupling's energy falls fastest for the part, in a metric of gyration [rad].
+///
+/// For a small turn, or one about a principal axis, it is that turn itself. For others the derivative of the energy points
+/// elsewhere: a proxy that went by the turn would come to rest where the torque still drives it along what is free.
+/// @param turn  From the part to the hand, in the part's principal axes [rad].
+/// Where gyrations differ much, large turns are followed only in part, since the torque then changes faster than the
+/// metric says. Real-time safe.
+glm::dvec3 steepestTurn(const glm::dvec3& turn, const glm::dvec3& gyration) noexcept;
 
 /// Rotation vector from `from` to `to`, in their common frame [rad]; the shorter way. Exactly zero if they
 /// are equal. Real-time safe.

@@ -436,7 +436,8 @@ Proxy::Motion Proxy::motionOf(const Tick& tick, const StepSolution& solution) co
 StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
   const MassMetric& metric = tick.metric;
   const double margin = marginHere(), held = std::min(here_.distance, margin);
-  const glm::dvec3 turn = metric.gyration * (metric.principalFromWorld(pose_) * wanted.spin);
+  const glm::dvec3 spin = metric.principalFromWorld(pose_) * wanted.spin;
+  const glm::dvec3 turn = metric.gyration * steepestTurn(spin, metric.gyration);
   const double way = std::sqrt(glm::dot(wanted.shift, wanted.shift) + glm::dot(turn, turn));
   const double mostTurn = kTurnShare * contactTurn(kContactReach * margin_, metric.radius);
   StepGoal goal;

@@ -130,18 +130,23 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
     takePose(tick, mapper_.map(device, input.isClutched, settings.mapping));
     const bool isFelt = input.isArmed && !input.isClutched;
     if (isFelt != conditioner_.isEngaged()) isFelt ? conditioner_.engage() : conditioner_.disengage();
-    Wrench wrench = settings.mode == HapticMode::Proxy ? feelProxy(tick) : feelSprings(tick);
-    wrench.force += pull_.force;
-    wrench.torque += pull_.torque;
+    LimitedCoupling felt;
+    if (settings.mode == HapticMode::Proxy)
+      felt = feelProxy(tick);
+    else
+      felt.wanted = felt.rendered = feelSprings(tick);
     snapshot.guidance = {pull_.force, pull_.torque};
     const Wrench damping = passivity_.damping(limits, period);
-    wrench.force += damping.force;
-    wrench.torque += damping.torque;
-    // Not merely clamped: it would count as a force at its limit. Also of a device that senses no turning (an omega.3).
-    if (!(limits.maxTorque > 0.0)) wrench.torque = glm::dvec3(0.0);
-    const bool isUsable = isFinite(wrench.force) && isFinite(wrench.torque);
+    for (Wrench* wrench : {&felt.wanted, &felt.rendered}) {
+      wrench->force += pull_.force + damping.force;
+      wrench->torque += pull_.torque + damping.torque;
+      // Not merely clamped: it would count as a force at its limit. Also of a device that senses no turning (an omega.3).
+      if (!(limits.maxTorque > 0.0)) wrench->torque = glm::dvec3(0.0);
+    }
+    const bool isUsable = isFinite(felt.wanted.force) && isFinite(felt.wanted.torque) &&
+                          isFinite(felt.rendered.force) && isFinite(felt.rendered.torque);
     if (fault_ == ServoFault::None && !isUsable) fault_ = ServoFault::WrenchNotFinite;
-    if (fault_ == ServoFault::None) send(tick, wrench, input);
+    if (fault_ == ServoFault::None) send(tick, felt, input);
   }
   if (fault_ != ServoFault::None) {
     conditioner_ = {};
@@ -243,7 +248,7 @@ bool ServoTick::areBodiesPlaced(const Tick& tick) const noexcept {
   return arePlaced;
 }
 
-Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
+LimitedCoupling ServoTick::feelProxy(const Tick& tick) noexcept {
   const ServoScene& scene = tick.scene;
   tick.snapshot.coupling = coupling_;
   isToBeShown_ = true;
@@ -270,7 +275,7 @@ Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
   const RigidTransform& proved = proxy_.pose();
   isFeltAhead_ = scene.moving.geometry != nullptr &&
                  (felt_.pose.translation != proved.translation || felt_.pose.rotation != proved.rotation);
-  return couplingWrench(coupling_, scene.metric, scene.centreInPart, handle_, felt_);
+  return limitedCoupling(coupling_, scene.metric, scene.centreInPart, handle_, felt_, tick.limits);
 }
 
 RigidTransform ServoTick::withoutLeap(const Tick& tick, const RigidTransform& felt) noexcept {
@@ -333,12 +338,14 @@ void ServoTick::account(const Tick& tick, const RigidTransform& handleBefore) no
   passivity_.observe(interval, tick.limits, stored);
 }
 
-void ServoTick::send(const Tick& tick, const Wrench& wrench, const HandleInput& input) noexcept {
+void ServoTick::send(const Tick& tick, const LimitedCoupling& felt, const HandleInput& input) noexcept {
   const ConditionedWrench sent =
-      conditioner_.condition(wrench, input.age, tick.period, tick.limits, input.patience);
-  tick.snapshot.unclampedWrench = wrench;
+      conditioner_.condition(felt.rendered, input.age, tick.period, tick.limits, input.patience);
+  const bool isLimited =
+      felt.rendered.force != felt.wanted.force || felt.rendered.torque != felt.wanted.torque;
+  tick.snapshot.unclampedWrench = felt.wanted;
   tick.snapshot.wrench = sent.wrench;
-  tick.snapshot.isClamped = sent.isClamped;
+  tick.snapshot.isClamped = isLimited || sent.isClamped;
   tick.snapshot.deviceWrench = wrenchOnDevice(sent.wrench, tick.settings.mapping);
   held_ = sent.wrench;
 }

@@ -36,7 +36,7 @@ struct ServoParameters {
 /// far as it can (Proxy), and the hand feels the coupling between the two. In the springs mode the part is
 /// where the handle is, and the hand feels the sum of the springs, as far as the device bears it (boundedSprings()). The
 /// wrench is kept passive
-/// (PassivityController) and within the device's limits (WrenchConditioner). When the mode changes, the handle
+/// (PassivityController) and within the device's limits (limitedCoupling(), WrenchConditioner). When the mode changes, the handle
 /// returns to the part and the force ramps up from zero: the handle may be where only the other mode lets the
 /// part go. In either mode the hand also feels the scene's guidance (GuidanceFollower), if there is one.
 ///
@@ -121,7 +121,7 @@ class ServoTick {
   /// True if every body searched for minima has a valid pose.
   bool areBodiesPlaced(const Tick& tick) const noexcept;
   Wrench feelSprings(const Tick& tick) noexcept;
-  Wrench feelProxy(const Tick& tick) noexcept;
+  LimitedCoupling feelProxy(const Tick& tick) noexcept;
   /// Where the hand feels the part, if the proxy's constraints want it there: what was felt ahead of the part may come
   /// back only as fast as that gives the hand little energy.
   RigidTransform withoutLeap(const Tick& tick, const RigidTransform& felt) noexcept;
@@ -139,7 +139,7 @@ class ServoTick {
   static void showOverlaps(const Subject& subject) noexcept;
   /// Accounts for what the hand did since the last tick, before the part moves on.
   void account(const Tick& tick, const RigidTransform& handleBefore) noexcept;
-  void send(const Tick& tick, const Wrench& wrench, const HandleInput& input) noexcept;
+  void send(const Tick& tick, const LimitedCoupling& felt, const HandleInput& input) noexcept;
   BodyMotion smoothed(const BodyMotion& before, const RigidTransform& pose, const glm::dvec3& centre,
                       double period) const noexcept;
 

@@ -57,6 +57,48 @@ class Spread {
   double squares_ = 0.0, count_ = 0.0;
 };
 
+/// Vibration of a hand: its motion about the mean of a span of time around.
+class Vibration {
+ public:
+  /// @param turn  Times a radius [m].
+  void add(double time, const glm::dvec3& place, const glm::dvec3& turn) {
+    if (samples_.empty()) first_ = place;
+    samples_.push_back({time, place - first_, turn});
+  }
+  double rms(double span) const {
+    double squares = 0.0;
+    std::size_t counted = 0, begin = 0, end = 0;
+    glm::dvec3 place(0.0), turn(0.0);
+    for (const Sample& sample : samples_) {
+      for (; end < samples_.size() && samples_[end].time <= sample.time + 0.5 * span; ++end) {
+        place += samples_[end].place;
+        turn += samples_[end].turn;
+      }
+      for (; samples_[begin].time < sample.time - 0.5 * span; ++begin) {
+        place -= samples_[begin].place;
+        turn -= samples_[begin].turn;
+      }
+      // Nearer to an end the mean is of one side, and takes a slow way for a vibration.
+      const bool isWhole = sample.time - 0.5 * span >= samples_.front().time &&
+                           sample.time + 0.5 * span <= samples_.back().time;
+      if (!isWhole) continue;
+      const double count = static_cast<double>(end - begin);
+      const glm::dvec3 shaken = sample.place - place / count, turned = sample.turn - turn / count;
+      squares += glm::dot(shaken, shaken) + glm::dot(turned, turned);
+      ++counted;
+    }
+    return counted > 0 ? std::sqrt(squares / static_cast<double>(counted)) : 0.0;
+  }
+
+ private:
+  struct Sample {
+    double time;  ///< [s]
+    glm::dvec3 place, turn;
+  };
+  std::vector<Sample> samples_;
+  glm::dvec3 first_{0.0};
+};
+
 ServoParameters parametersOf(const PressScene& scene, const PressOptions& options) {
   ServoParameters parameters;
   HapticSettings& settings = parameters.haptics;
@@ -208,6 +250,8 @@ PressResult press(const PressScene& scene, const PressOptions& options) {
   const auto before = std::make_unique<ServoSnapshot>();
   double forceStep = 0.0, lag = 0.0;
   Spread places, turns, forces, torques;
+  Vibration vibration;
+  const double radius = servoScene.metric.radius / scene.scale;
   double time = 0.0;
   Wrench held;
   for (bool isFirst = true; time < options.seconds; isFirst = false) {
@@ -231,12 +275,14 @@ PressResult press(const PressScene& scene, const PressOptions& options) {
     lag =
         std::max(lag, glm::distance(s.centre, s.handle.applyToPoint(servoScene.centreInPart)) / scene.scale);
     places.add(hand.centre());
-    turns.add(turnBetween(servoScene.moving.worldFromPart.rotation, s.handle.rotation));
+    const glm::dvec3 turn = turnBetween(servoScene.moving.worldFromPart.rotation, s.handle.rotation);
+    turns.add(turn);
+    vibration.add(time, hand.centre(), radius * turn);
     forces.add(held.force);
     torques.add(held.torque);
   }
-  const double radius = servoScene.metric.radius / scene.scale;
   return {std::hypot(places.rms(), radius * turns.rms()),
+          vibration.rms(kShakeSpan),
           forces.rms(),
           torques.rms(),
           stiffnessInForce(servo) * scene.scale,

@@ -41,6 +41,7 @@ struct PressOptions {
 /// All of the device: where the scene is scaled, its motions and torques are over the scale.
 struct PressResult {
   double handle = 0.0;  ///< Root mean square of the handle's motion about its mean, turns by the radius [m].
+  double shake = 0.0;   ///< The same about its mean of kShakeSpan around: without slow ways [m].
   double force = 0.0;   ///< Of the force's [N].
   double torque = 0.0;  ///< Of the torque's [N m].
   double stiffness = 0.0;   ///< In force at the end [N/m].
@@ -64,11 +65,15 @@ constexpr RestLimits kAtRest{1e-6, 1e-3};
 /// encoder, and less than the least force that a finger tells from none.
 constexpr RestLimits kAtRestWhenRough{3e-5, 3e-2};
 
-/// A hand that moves by more than this is shaken, not resting: ten times what the bound's own steps move it by.
+/// A hand that vibrates by more than this is shaken: ten times what the bound's own steps move it by.
 constexpr double kShaken = 3e-4;  // rms [m]
+/// Span of the mean that a vibration is about [s]. A hand still on its way, as one that slides off or through, is not
+/// shaken: while it speeds up by 0.5 m/s^2 it strays from that mean by 0.2 mm. Shaking comes at 5 Hz and more,
+/// of which a third or more is left.
+constexpr double kShakeSpan = 0.1;
 
 inline bool isShaken(const PressResult& result) {
-  return !(result.handle <= kShaken);
+  return !(result.shake <= kShaken);
 }
 
 inline bool isAtRest(const PressResult& result, const PressOptions& options) {

@@ -66,13 +66,14 @@ void tryOne(const PressScene& scene, const PressOptions& options, RestCounts& co
   counts.restless += isProxy && !isCalm ? 1 : 0;
   counts.shaken += isShaken(r) ? 1 : 0;
   fmt::print(
-      "{},{},{},{:.4g},{:.4g},{:.3g},{:.4g},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.3g},{:.3g},{:.3g},{},"
-      "{},{}\n",
+      "{},{},{},{:.4g},{:.4g},{:.3g},{:.4g},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.3g},{:.3g},{:."
+      "3g},"
+      "{},{},{}\n",
       nameOf(options.mode), scene.name,
       options.stiffness > 0.0 ? fmt::format("{}", options.stiffness) : "limit", r.stiffness, options.damping,
       1e3 * options.period, 1.0 / options.period, options.isRough ? 1 : 0, options.friction, 1e6 * r.handle,
-      1e3 * r.force, 1e3 * r.torque, r.meanForce, r.forceStep, r.energyGain, 1e6 * r.lag, r.springShare,
-      r.isKept ? 1 : 0, isCalm ? 1 : 0, isShaken(r) ? 1 : 0);
+      1e6 * r.shake, 1e3 * r.force, 1e3 * r.torque, r.meanForce, r.forceStep, r.energyGain, 1e6 * r.lag,
+      r.springShare, r.isKept ? 1 : 0, isCalm ? 1 : 0, isShaken(r) ? 1 : 0);
   std::fflush(stdout);
 }
 
@@ -82,7 +83,8 @@ void run(const RestOptions& options) {
   const std::vector<StressMode> modes = stressModes(options.modes);
   fmt::print(
       "mode,scene,stiffness wished N/m,stiffness N/m,device damping N s/m,period ms,rate Hz,rough,friction,"
-      "handle rms um,force rms mN,torque rms mN m,mean force N,largest force step N,energy gain J,lag um,"
+      "handle rms um,shake rms um,force rms mN,torque rms mN m,mean force N,largest force step N,energy gain "
+      "J,lag um,"
       "spring share,kept,at rest,shaken\n");
   RestCounts counts;
   for (const StressMode mode : modes) {

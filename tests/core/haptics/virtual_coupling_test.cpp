@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/haptics/wrench_conditioner.h"
 #include "core/math/rotation_vector.h"
 #include "tests/support/random_values.h"
 
@@ -27,6 +26,13 @@ DeviceLimits deviceWithDamping(double damping, double rotationalDamping) {
   DeviceLimits limits;
   limits.damping = damping;
   limits.rotationalDamping = rotationalDamping;
+  return limits;
+}
+
+DeviceLimits deviceWithMax(double force, double torque) {
+  DeviceLimits limits;
+  limits.maxForce = force;
+  limits.maxTorque = torque;
   return limits;
 }
 
@@ -260,6 +266,53 @@ TEST(CouplingWrench, IsSquareToWhatTheMetricCallsFree) {
   }
 }
 
+TEST(SteepestTurn, IsWhereTheStoredEnergyFallsFastestAsThePartTurns) {
+  RandomValues random(37);
+  const glm::dvec3 gyration(0.02, 0.03, 0.04);
+  const double k = 1000.0;
+  const CouplingState spring{k, 0.0, k * 0.04 * 0.04, 0.0, false};
+  const DeviceLimits unlimited = deviceWithMax(1e6, 1e6);
+  double farthest = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const MassMetric metric = metricOf(gyration, rotationOf(random.vector(3.0)));
+    const RigidTransform part = random.pose();
+    const glm::dquat worldFromPrincipal = part.rotation * metric.partFromPrincipal;
+    const glm::dvec3 turn = random.vector(0.6);  // To the hand, in principal axes.
+    const RigidTransform handle{rotationOf(worldFromPrincipal * turn) * part.rotation, part.translation};
+    const glm::dvec3 steepest = steepestTurn(turn, gyration);
+    farthest = std::max(farthest, glm::distance(steepest, turn) / glm::length(turn));
+    for (int axis = 0; axis < 3; ++axis) {
+      constexpr double kStep = 1e-5;
+      glm::dvec3 principal(0.0);
+      principal[axis] = kStep;
+      const auto energyAt = [&](double sign) {
+        const RigidTransform turned{rotationOf(sign * (worldFromPrincipal * principal)) * part.rotation,
+                                    part.translation};
+        return storedEnergy(spring, metric, {}, handle, turned, unlimited);
+      };
+      const double slope = (energyAt(1.0) - energyAt(-1.0)) / (2.0 * kStep);
+      const double torque = k * gyration[axis] * gyration[axis] * steepest[axis];
+      EXPECT_NEAR(-slope, torque, 1e-7) << i << ", " << axis;
+    }
+  }
+  EXPECT_GT(farthest, 0.1) << "it is not the turn itself";
+}
+
+TEST(SteepestTurn, OfASmallTurnOrAboutAPrincipalAxisIsTheTurnItself) {
+  const glm::dvec3 gyration(0.02, 0.03, 0.04);
+  const glm::dvec3 small(1e-6, -2e-6, 3e-6), about(0.0, 1.2, 0.0);
+  EXPECT_LT(glm::distance(steepestTurn(small, gyration), small), 1e-5 * glm::length(small));
+  EXPECT_LT(glm::distance(steepestTurn(about, gyration), about), 1e-14);
+  EXPECT_EQ(steepestTurn(glm::dvec3(0.0), gyration), glm::dvec3(0.0));
+}
+
+TEST(SteepestTurn, StaysNearTheTurnWhereTheTorqueChangesFasterThanAStepBears) {
+  // A needle: about its axis the energy of a turn across it is 1,600 times as steep as the metric says.
+  const glm::dvec3 turn(1.5, 0.2, 0.1);
+  const glm::dvec3 steepest = steepestTurn(turn, {0.04, 0.04, 0.001});
+  EXPECT_LT(glm::distance(steepest, turn), 0.5 * glm::length(turn));
+}
+
 TEST(CouplingWrench, HalfATurnIsPulledTheShorterWay) {
   using std::numbers::pi;
   const auto torqueAt = [](double angle) {
@@ -270,7 +323,100 @@ TEST(CouplingWrench, HalfATurnIsPulledTheShorterWay) {
   EXPECT_NEAR(torqueAt(pi + 0.01), -0.8 * (pi - 0.01), 1e-12);
 }
 
-/// Work that takes the handle away from the part along a straight way, against the clamped wrench.
+TEST(LimitedCoupling, StaysWithinTheLimitsAndSaysWhatWasWanted) {
+  RandomValues random(31);
+  const DeviceLimits limits = deviceWithMax(3.0, 0.1);
+  CouplingState spring = kCoupling;
+  spring.damping = spring.rotationalDamping = 0.0;
+  int forceReached = 0, torqueReached = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const MassMetric metric = metricOf({0.01, 0.02, 0.04}, rotationOf(random.vector(3.0)));
+    const BodyMotion handle{random.pose(), {}};
+    const RigidTransform apart{rotationOf(random.vector(0.3)), random.vector(0.01)};
+    const BodyMotion part{(handle.pose * apart).normalized(), {}};
+    const LimitedCoupling w = limitedCoupling(spring, metric, {}, handle, part, limits);
+    const Wrench wanted = couplingWrench(spring, metric, {}, handle, part);
+    EXPECT_EQ(w.wanted.force, wanted.force);
+    EXPECT_EQ(w.wanted.torque, wanted.torque);
+    EXPECT_LE(glm::length(w.rendered.force), 3.0 * (1.0 + 1e-12));
+    EXPECT_LE(glm::length(w.rendered.torque), 0.1 * (1.0 + 1e-12));
+    forceReached += glm::length(wanted.force) > 3.0;
+    torqueReached += glm::length(wanted.torque) > 0.1;
+  }
+  EXPECT_GT(forceReached, 100);
+  EXPECT_GT(torqueReached, 100);
+}
+
+TEST(LimitedCoupling, AForceBeyondItsLimitTakesTheTorqueDownWithIt) {
+  // Clamped apart, a force through a contact would get the torque of another line of action, and drag.
+  const MassMetric metric = metricOf({0.01, 0.02, 0.04}, rotationOf({0.3, -0.8, 1.1}));
+  const BodyMotion part, handle{{rotationOf({0.05, -0.1, 0.02}), {0.004, -0.006, 0.012}}, {}};
+  const LimitedCoupling w = limitedCoupling(kCoupling, metric, {}, handle, part, deviceWithMax(3.0, 10.0));
+  const double share = glm::length(w.rendered.force) / glm::length(w.wanted.force);
+  EXPECT_LT(share, 0.3);
+  EXPECT_NEAR(glm::distance(w.rendered.force, share * w.wanted.force), 0.0, 1e-14);
+  EXPECT_NEAR(glm::distance(w.rendered.torque, share * w.wanted.torque), 0.0, 1e-14);
+}
+
+TEST(LimitedCoupling, IsTheCouplingItselfWithinTheLimits) {
+  const MassMetric metric = metricOf({0.01, 0.02, 0.04});
+  const BodyMotion part, handle{{rotationOf({0.05, -0.1, 0.02}), {0.0004, -0.0006, 0.0012}}, {}};
+  const LimitedCoupling w = limitedCoupling(kCoupling, metric, {}, handle, part, deviceWithMax(10.0, 1.0));
+  EXPECT_EQ(w.rendered.force, w.wanted.force);
+  EXPECT_EQ(w.rendered.torque, w.wanted.torque);
+}
+
+TEST(LimitedCoupling, RoundALoopBeyondTheLimitsTheHandGainsNothing) {
+  // Out, turned, back and turned back: had the factor depended on the force alone, the turn out there would have cost
+  // less than it gives back.
+  constexpr int kSteps = 20000;
+  CouplingState spring = kCoupling;
+  spring.damping = spring.rotationalDamping = 0.0;
+  const MassMetric metric = metricOf({0.005, 0.02, 0.04}, rotationOf({0.3, -0.8, 1.1}));
+  const DeviceLimits limits = deviceWithMax(3.0, 10.0);
+  const BodyMotion part{{rotationOf({1.0, 0.4, -0.2}), {}}, {}};
+  const auto handleAt = [&](int i) {
+    const double angle = 2.0 * std::numbers::pi * i / kSteps;
+    const glm::dvec3 turn(0.6 * std::cos(angle), 0.5 * std::sin(angle), 0.4 * std::sin(2.0 * angle + 0.5));
+    const glm::dvec3 shift(0.006 * std::sin(angle + 0.7), 0.004 * std::cos(angle), 0.008 * std::sin(angle));
+    return BodyMotion{{rotationOf(turn) * part.pose.rotation, shift}, {}};
+  };
+  const auto wrenchAt = [&](int i) {
+    return limitedCoupling(spring, metric, {}, handleAt(i), part, limits).rendered;
+  };
+  double work = 0.0, turnover = 0.0;
+  int limited = 0;
+  Wrench before = wrenchAt(0);
+  for (int i = 0; i < kSteps; ++i) {
+    const Wrench after = wrenchAt(i + 1);
+    const RigidTransform from = handleAt(i).pose, to = handleAt(i + 1).pose;
+    const double step =
+        0.5 * (glm::dot(before.force + after.force, to.translation - from.translation) +
+               glm::dot(before.torque + after.torque, turnBetween(from.rotation, to.rotation)));
+    work += step;
+    turnover += std::abs(step);
+    limited += after.force != couplingWrench(spring, metric, {}, handleAt(i + 1), part).force;
+    before = after;
+  }
+  EXPECT_GT(limited, kSteps / 4);
+  EXPECT_GT(turnover, 0.01);
+  EXPECT_LT(std::abs(work), 1e-6 * turnover);
+}
+
+TEST(LimitedCoupling, ALimitOfZeroRendersNothingOfItsOwnAndAllOfTheOther) {
+  const MassMetric metric = metricOf(glm::dvec3(0.02));
+  const BodyMotion part, handle{{rotationOf({0.05, -0.1, 0.02}), {0.0004, -0.0006, 0.0012}}, {}};
+  const LimitedCoupling noForce =
+      limitedCoupling(kCoupling, metric, {}, handle, part, deviceWithMax(0.0, 1.0));
+  EXPECT_EQ(noForce.rendered.force, glm::dvec3(0.0));
+  EXPECT_EQ(noForce.rendered.torque, noForce.wanted.torque);
+  const LimitedCoupling noTorque =
+      limitedCoupling(kCoupling, metric, {}, handle, part, deviceWithMax(10.0, 0.0));
+  EXPECT_EQ(noTorque.rendered.force, noTorque.wanted.force);
+  EXPECT_EQ(noTorque.rendered.torque, glm::dvec3(0.0));
+}
+
+/// Work that takes the handle away from the part along a straight way, against the limited wrench.
 double workOfStretching(const MassMetric& metric, const glm::dvec3& shift, const glm::dvec3& turn,
                         const DeviceLimits& limits) {
   const int steps = 20'000;
@@ -278,7 +424,7 @@ double workOfStretching(const MassMetric& metric, const glm::dvec3& shift, const
   for (int i = 0; i < steps; ++i) {
     const double middle = (i + 0.5) / steps;
     const BodyMotion part, handle{{rotationOf(middle * turn), middle * shift}, {}};
-    const Wrench w = limitWrench(couplingWrench(kCoupling, metric, {}, handle, part), limits).wrench;
+    const Wrench w = limitedCoupling(kCoupling, metric, {}, handle, part, limits).rendered;
     work -= (glm::dot(w.force, shift) + glm::dot(w.torque, turn)) / steps;
   }
   return work;
@@ -287,10 +433,8 @@ double workOfStretching(const MassMetric& metric, const glm::dvec3& shift, const
 TEST(StoredEnergy, IsTheWorkThatStretchesTheCoupling) {
   const MassMetric metric = metricOf({0.01, 0.02, 0.04}, rotationOf({0.3, -0.8, 1.1}));
   const glm::dvec3 shift(0.002, -0.003, 0.006), turn(0.3, 0.2, -0.5);
-  DeviceLimits wide, narrow;
-  wide.maxForce = wide.maxTorque = 1e3;
-  narrow.maxForce = 3.0;  // Reached at 3 of 7 mm, and the torque on the way.
-  narrow.maxTorque = 0.1;
+  const DeviceLimits wide = deviceWithMax(1e3, 1e3);
+  const DeviceLimits narrow = deviceWithMax(3.0, 0.1);  // Both are reached on the way.
   for (const DeviceLimits& limits : {wide, narrow}) {
     const RigidTransform handle{rotationOf(turn), shift};
     const double work = workOfStretching(metric, shift, turn, limits);

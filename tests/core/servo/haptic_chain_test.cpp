@@ -45,7 +45,7 @@ class Chain {
     controller_.observe({held_, handle_.pose.translation - last.pose.translation, {}, kPeriod, {}, {}},
                         limits_, storedEnergy(coupling, kMetric, kCentre, handle_.pose, part_.pose, limits_));
     followHandle(coupling);
-    Wrench wanted = couplingWrench(coupling, kMetric, kCentre, handle_, part_);
+    Wrench wanted = limitedCoupling(coupling, kMetric, kCentre, handle_, part_, limits_).rendered;
     const Wrench extra = controller_.damping(limits_, kPeriod);
     paidTicks_ += extra.force != glm::dvec3(0.0);
     wanted.force += extra.force;

@@ -66,6 +66,15 @@ class ServoTickWithProxy : public testing::Test {
     return *snapshot_;
   }
 
+  /// Leads the hand down to a pose in half a second, turned from the start, and holds still there.
+  const ServoSnapshot& press(const RigidTransform& device) {
+    constexpr int kTicks = 500;
+    const glm::dvec3 above(0.0, 0.0, 0.1);
+    for (int i = 0; i < kTicks; ++i)
+      tick({device.rotation, device.translation + (1.0 - static_cast<double>(i) / kTicks) * above});
+    return hold(device, kTicks);
+  }
+
   std::shared_ptr<const ServoScene> scene_;
   SceneTracker tracker_;
   TrackedScene tracked_;
@@ -180,6 +189,41 @@ TEST_F(ServoTickWithProxy, ThePressedHandIsPushedBackByTheCouplingsStiffness) {
     held += s.contacts[i].force;
   }
   EXPECT_NEAR(held, s.wrench.force.z, 0.05);
+}
+
+/// Force and torque were clamped apart: a peg pressed hard and askew in its hole dragged by 7 % of the force.
+TEST_F(ServoTickWithProxy, APressBeyondTheMaxForceActsThroughTheContact) {
+  parameters_.limits.maxForce = 4.0;
+  tick(at({0.0, 0.0, 0.2}));
+  // Tilted, and one edge 20 mm in the floor.
+  const glm::dquat tilt = glm::angleAxis(0.5, glm::dvec3(1, 0, 0));
+  const ServoSnapshot& s = press({tilt, {0.0, 0.0, 0.1 * (std::cos(0.5) + std::sin(0.5)) - 0.02}});
+  const glm::dvec3 edge = s.proxy.rotation * glm::dvec3(0.0, -0.1, -0.1);
+  ASSERT_NEAR((s.proxy.translation + edge).z, kMargin, 0.02 * kMargin);
+  ASSERT_GT(s.unclampedWrench.force.z, 1.1 * 4.0);
+  EXPECT_TRUE(s.isClamped);
+  EXPECT_LE(glm::length(s.wrench.force), 4.0);
+  const double torque = edge.y * s.wrench.force.z;
+  EXPECT_GT(std::abs(torque), 0.05);
+  EXPECT_NEAR(s.wrench.torque.x, torque, 0.01 * std::abs(torque));
+}
+
+/// The proxy stopped where the turn to the hand had no part left along what was free, which for a large turn is not where
+/// the torque has none.
+TEST_F(ServoTickWithProxy, ALargeTurnAgainstAContactIsNotFeltAlongWhatIsFree) {
+  auto scene = std::make_shared<ServoScene>(*scene_);
+  const PartGeometryPtr box = test::solidGeometryOf(test::boxMesh({0.08, 0.2, 0.05}));
+  box->tree();
+  scene->setMoving({PartId{1}, box, at({0.0, 0.0, 0.2})});
+  setScene(scene);
+  parameters_.limits.maxForce = 100.0;
+  tick(at({0.0, 0.0, 0.2}));
+  // Pressed flat on the floor, so that it may turn about z alone.
+  const glm::dquat tilt = rotationOf({0.35, 0.3, 0.4});
+  const ServoSnapshot& s = press({tilt, {0.0, 0.0, 0.025 - 0.04}});
+  ASSERT_NEAR((s.proxy.rotation * glm::dvec3(0.0, 0.0, 1.0)).z, 1.0, 1e-6);
+  EXPECT_GT(glm::length(s.wrench.torque), 0.05);
+  EXPECT_LT(std::abs(s.wrench.torque.z), 1e-3 * glm::length(s.wrench.torque));
 }
 
 TEST_F(ServoTickWithProxy, StiffnessIsHeldToTheBoundOfTheDevice) {
