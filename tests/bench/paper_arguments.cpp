@@ -82,6 +82,7 @@ std::vector<NamedMode> modesOf(const ErrorScene& scene) {
   modes.push_back({"paper spans", modeOf(error("paper spans"), scene)});
   modes.push_back({"paper cones", modeOf(error("paper cones"), scene)});
   modes.push_back({"exact", exact});
+  modes.push_back({"grouped", modeOf(error("exact grouped"), scene)});
   modes.push_back({"exact printed law", [exact, &scene](const RigidTransform& pose, ContactAnswer& answer) {
                      exact(pose, answer);
                      SpringParameters printed = scene.springs;

@@ -66,9 +66,9 @@ struct ForceSample {
   std::size_t springs;
 };
 
-/// One spring at the global minimum, springs at all pairs of triangles, at the minima of the paper's rule and at the
-/// exact ones, by both laws, and the proxy, along one path: that which the proxy's part takes under a hand that presses
-/// it into the scene. @param samples  Gets every tick; may be null.
+/// One spring at the global minimum, springs at all pairs of triangles, at the minima of the paper's rule, at the exact
+/// ones, by both laws, and at the nearest of each area of contact, and the proxy, along one path: that which the proxy's
+/// part takes under a hand that presses it into the scene. @param samples  Gets every tick; may be null.
 std::vector<PaperFigure> argumentFigures(const PaperRow& row, const BenchScene& meshes,
                                          const ArgumentOptions& options, std::vector<ForceSample>* samples);
 
