@@ -257,7 +257,7 @@ def placements(expected, export):
     matrices = {"json": {part["name"]: part["matrix"] for part in json.loads(export("placement.json").read_text())["parts"]}}
     with export("placement.csv").open(newline="", encoding="utf-8") as file:
         # A spreadsheet's mark of text is not part of a name.
-        matrices["csv"] = {re.sub("^'(?=[=+\\-@\t\r])", "", line["part"]): [[line[f"m{i}{j}"] for j in range(4)] for i in range(4)]
+        matrices["csv"] = {re.sub("^'(?=[=+\\-@＝＋－＠\t\r\n])", "", line["part"]): [[line[f"m{i}{j}"] for j in range(4)] for i in range(4)]
                            for line in csv.DictReader(file)}
     for format, named in matrices.items():
         found = [r.Found(name, None, np.array(matrix, float), None, None, None) for name, matrix in named.items()]
