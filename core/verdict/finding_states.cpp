@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include <fmt/format.h>
+
 namespace nearfit {
 namespace {
 
@@ -52,6 +54,15 @@ ComparedFinding compared(const PairFinding& now, const PairRecord* before) {
   return finding;
 }
 
+/// Place of a record among those to keep, the lowest first. What is gone comes behind live clashes: after a check with a
+/// smaller threshold it can fill all places.
+int keepingTier(const PairRecord& record) noexcept {
+  const bool isThere = record.verdict != PairVerdict::Clear;
+  if (record.state == FindingState::Accepted || !record.reason.empty()) return 0;
+  if (record.state == FindingState::Fixed) return isThere ? 0 : 2;
+  return record.verdict >= PairVerdict::Clash ? 1 : 3;
+}
+
 bool wasChecked(const SceneCheck& check, const PartPair& pair) {
   const auto isThere = [&](PartId id) { return std::ranges::binary_search(check.parts, id); };
   return isThere(pair.part) && isThere(pair.other) &&
@@ -86,6 +97,12 @@ const char* stateWord(FindingState state, std::string_view reason) noexcept {
   return wasAccepted(state, reason) ? "changed" : wordOf(state);
 }
 
+std::size_t acceptedIn(const std::vector<ComparedFinding>& findings) noexcept {
+  return static_cast<std::size_t>(std::ranges::count_if(findings, [](const ComparedFinding& finding) {
+    return finding.now != nullptr && finding.now->isForbidden() && finding.state == FindingState::Accepted;
+  }));
+}
+
 FindingChanges changesIn(const std::vector<ComparedFinding>& findings) noexcept {
   FindingChanges changes;
   for (const ComparedFinding& finding : findings) {
@@ -113,13 +130,25 @@ std::vector<PairRecord> recordsOf(const std::vector<ComparedFinding>& findings) 
   }
   if (records.size() <= kMaxPairRecords) return records;
   const auto rank = [](const PairRecord& r) {
-    const bool isSaid = r.state == FindingState::Accepted || !r.reason.empty();
-    return std::tuple(!isSaid, -static_cast<int>(r.verdict), -r.depth.value_or(0.0), r.distance, r.pair);
+    return std::tuple(keepingTier(r), -static_cast<int>(r.verdict), -r.depth.value_or(0.0), r.distance,
+                      r.pair);
   };
   std::ranges::nth_element(records, records.begin() + static_cast<std::ptrdiff_t>(kMaxPairRecords), {}, rank);
   records.resize(kMaxPairRecords);
   std::ranges::sort(records, {}, &PairRecord::pair);
   return records;
+}
+
+std::size_t findingsNotKept(const std::vector<ComparedFinding>& findings) noexcept {
+  return findings.size() - std::min(findings.size(), kMaxPairRecords);
+}
+
+std::string notKeptText(const std::vector<ComparedFinding>& findings) {
+  const std::size_t count = findingsNotKept(findings);
+  if (count == 0) return "";
+  return fmt::format(
+      "a scene keeps {} findings: {} of the least {} not kept, and will be new in the next check",
+      kMaxPairRecords, count, count == 1 ? "is" : "are");
 }
 
 }  // namespace nearfit

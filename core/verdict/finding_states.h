@@ -46,15 +46,24 @@ constexpr bool wasAccepted(FindingState state, std::string_view reason) noexcept
 /// "new", "accepted" or "fixed"; "changed" where wasAccepted().
 const char* stateWord(FindingState state, std::string_view reason) noexcept;
 
+/// Number of findings that no rule allows, and that the user has accepted as they are.
+std::size_t acceptedIn(const std::vector<ComparedFinding>& findings) noexcept;
+
 /// Number of findings by how they differ from the last check. Those that are the same, or were not checked, are not counted.
 struct FindingChanges {
   std::size_t added = 0, worse = 0, better = 0, gone = 0;
 };
 FindingChanges changesIn(const std::vector<ComparedFinding>& findings) noexcept;
 
-/// The records to keep with the scene: all that the user said something about, and the worst of the rest, up to
-/// kMaxPairRecords in all. In ascending order of pairs. An accepted finding keeps the measures that it was accepted with as
+/// The records to keep with the scene, up to kMaxPairRecords in all: first those that the user said something about and
+/// that are still there (accepted, with a reason, or marked as fixed), then clashes and contained parts, then what is gone,
+/// and of the rest those that touch or are nearest. In ascending order of pairs. An accepted finding keeps the measures that it was accepted with as
 /// long as it stays the same, so that it cannot creep away from them by steps too small to count.
 std::vector<PairRecord> recordsOf(const std::vector<ComparedFinding>& findings);
+
+/// Number of findings that recordsOf() leaves out.
+std::size_t findingsNotKept(const std::vector<ComparedFinding>& findings) noexcept;
+/// The same in words for the user, without a full stop; "" if all are kept.
+std::string notKeptText(const std::vector<ComparedFinding>& findings);
 
 }  // namespace nearfit
