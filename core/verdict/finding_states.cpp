@@ -36,6 +36,9 @@ FindingChange changeOf(const PairFinding& now, const PairRecord& before) {
     if (isClearlyMore(*depth, *before.depth)) return FindingChange::Worse;
     return isClearlyMore(*before.depth, *depth) ? FindingChange::Better : FindingChange::Same;
   }
+  // Distances of both are 0: a way out that is no longer found is all that tells a deeper clash.
+  if (now.verdict >= PairVerdict::Clash && depth.has_value() != before.depth.has_value())
+    return depth ? FindingChange::Better : FindingChange::Worse;
   if (isClearlyMore(before.distance, now.distance)) return FindingChange::Worse;
   return isClearlyMore(now.distance, before.distance) ? FindingChange::Better : FindingChange::Same;
 }

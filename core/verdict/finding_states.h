@@ -32,7 +32,8 @@ struct ComparedFinding {
 
 /// Compares a check with the records of the last one: all findings of both, in ascending order of pairs. A finding is
 /// worse if its verdict is, or by the same verdict if the parts are nearer, or in each other deeper, by more than a
-/// thousandth and a nanometre. Records of pairs that were not checked this time, because a part is hidden or a rule leaves
+/// thousandth and a nanometre, or if no translation is found any more that frees them. Clashes without one both times are
+/// the same. Records of pairs that were not checked this time, because a part is hidden or a rule leaves
 /// them out, stay as they are, as Same; so do those that were gone before, with the verdict Clear.
 /// @param check   Kept by pointer in the result.
 /// @param before  In ascending order of pairs, as Scene::pairRecords().

@@ -209,6 +209,16 @@ TEST(FindingStates, WhatIsGoneTakesNoPlaceOfAClash) {
             static_cast<std::ptrdiff_t>(kMaxPairRecords - 100));
 }
 
+/// An accepted clash that no way out was found of any more stayed accepted.
+TEST(FindingStates, AClashWithoutAWayOutIsWorseThanOneWithADepth) {
+  PairFinding stuck = clash(pairOf(1, 2), 1e-4);
+  stuck.clash->freeing.reset();
+  const SceneCheck free = checkOf({clash(pairOf(1, 2), 1e-4)}), caught = checkOf({stuck});
+  EXPECT_EQ(compareFindings(caught, saved(free)).at(0).change, FindingChange::Worse);
+  EXPECT_EQ(compareFindings(free, saved(caught)).at(0).change, FindingChange::Better);
+  EXPECT_EQ(compareFindings(caught, saved(caught)).at(0).change, FindingChange::Same);
+}
+
 TEST(FindingStates, AcceptedClashesCountUntilTheyAreWorse) {
   const SceneCheck check =
       checkOf({clash(pairOf(1, 2), 1e-4), clash(pairOf(1, 3), 1e-4), near(pairOf(1, 4), 1e-3)});
