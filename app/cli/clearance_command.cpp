@@ -36,7 +36,9 @@ constexpr const char* kClearanceFooter =
     "Rules of the scene count after those given here. A and B are names, or patterns with * and ?; a\n"
     "backslash takes the next character as it is. A press fit allows a clash whose surfaces lie no deeper\n"
     "in each other. State and change compare with the findings saved with the scene, which stays as it is.\n"
-    "Exit code 3 if there is a clash, or a part inside another one, that no rule allows.\n"
+    "Exit code 3 if there is a clash, or a part inside another one, that no rule allows and that was not\n"
+    "accepted. Once it is deeper than accepted, or of another verdict, it counts again; with --strict "
+    "always.\n"
     "Example:\n"
     "nearfit-cli clearance pump.nearfit --all --threshold 0.5mm --press-fit 'Bush*:Housing=0.02mm'";
 

@@ -37,8 +37,9 @@ constexpr const char* kReportFooter =
     "settings,\n"
     "versions, SHA-256 of all inputs, and what was not checked. No window or display is needed.\n"
     "The verdict is printed. Exit code 3, and the report all the same, if there is a clash that no rule "
-    "allows, if\n"
-    "the path meets a part at a pose, or if the certificate is refused.\n"
+    "allows\n"
+    "and that was not accepted as it is, if the path meets a part at a pose, or if the certificate is "
+    "refused.\n"
     "Example: nearfit-cli report pump.nearfit --path in.nfpath --certificate in.nfcert -o pump.html";
 
 /// Throws UsageError if the report would replace an input.

@@ -84,6 +84,10 @@ void addSceneCheckOptions(CLI::App& command, CLI::Option& all,
       .add_flag("--save", options->isSaved,
                 "With --all: keep the findings in the scene file, for the next check")
       ->needs(&all);
+  command
+      .add_flag("--strict", options->isStrict,
+                "With --all: exit code 3 for clashes too that were accepted as they are")
+      ->needs(&all);
 }
 
 void runSceneCheck(const std::string& sceneFile, const SceneCheckOptions& given) {
@@ -114,13 +118,15 @@ void runSceneCheck(const std::string& sceneFile, const SceneCheckOptions& given)
   if (!options.json.empty()) writeTo(options.json, sceneCheckJson(scene, *check, compared));
   if (!options.csv.empty()) writeTo(options.csv, sceneCheckCsv(scene, *check, compared));
   if (!isStdoutTaken)
-    print(sceneCheckTable(scene, *check, compared) + sceneCheckSummary(*check) + sceneCheckChanges(compared));
+    print(sceneCheckTable(scene, *check, compared) + sceneCheckSummary(*check, compared) +
+          sceneCheckChanges(compared));
   if (options.isSaved) {
     scene.setPairRecords(recordsOf(compared));
     writeSceneFile(scene, sceneFile);
+    if (findingsNotKept(compared) > 0) printError("warning: " + notKeptText(compared));
   }
   printCacheWarnings();
-  if (check->forbidden() == 0) return;
+  if (check->forbidden() == (options.isStrict ? 0 : acceptedIn(compared))) return;
   flushOutput();
   throw NegativeVerdict();
 }

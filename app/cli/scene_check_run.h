@@ -20,7 +20,8 @@ struct SceneCheckOptions {
   CLI::Option *jsonOption = nullptr, *csvOption = nullptr;  ///< Given without a file they mean stdout.
   std::optional<std::size_t> minima;
   RuleOptions rules;
-  bool isSaved = false;  ///< The findings are kept with the scene.
+  bool isSaved = false;   ///< The findings are kept with the scene.
+  bool isStrict = false;  ///< Accepted findings count as others do.
 };
 
 /// Adds the options; each needs `all`.
@@ -28,7 +29,7 @@ void addSceneCheckOptions(CLI::App& command, CLI::Option& all,
                           const std::shared_ptr<SceneCheckOptions>& options);
 
 /// Checks all pairs of a scene's visible parts and prints what it finds; keeps it in the scene file if asked to. Throws
-/// NegativeVerdict if the parts clash and no rule allows it, UsageError, FileError, Cancelled (after an interrupt).
+/// NegativeVerdict if parts clash, no rule allows it and the user has not accepted it as it is; UsageError, FileError, Cancelled (after an interrupt).
 void runSceneCheck(const std::string& scene, const SceneCheckOptions& options);
 
 }  // namespace nearfit::cli

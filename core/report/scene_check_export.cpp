@@ -121,12 +121,13 @@ CheckJson rulesJson(const SceneCheck& check) {
   return rules;
 }
 
-CheckJson countsJson(const SceneCheck& check) {
+CheckJson countsJson(const SceneCheck& check, const std::vector<ComparedFinding>& compared) {
   CheckJson counts = {{"pairs", check.checkedPairs()}, {"leftOut", check.leftOut.size()}};
   for (const PairVerdict verdict : {PairVerdict::Clear, PairVerdict::Near, PairVerdict::Touching,
                                     PairVerdict::Clash, PairVerdict::Contained})
     counts[wordOf(verdict)] = check.count(verdict);
   counts["forbidden"] = check.forbidden();
+  counts["accepted"] = acceptedIn(compared);
   return counts;
 }
 
@@ -206,13 +207,15 @@ std::string sceneCheckTable(const Scene& scene, const SceneCheck& check,
   return text;
 }
 
-std::string sceneCheckSummary(const SceneCheck& check) {
+std::string sceneCheckSummary(const SceneCheck& check, const std::vector<ComparedFinding>& compared) {
+  const std::size_t accepted = acceptedIn(compared);
   return fmt::format(
       "{} pairs checked, {} left out: {} clear, {} near, {} touching, {} clashes, {} contained; "
-      "{} not allowed\n",
+      "{} not allowed{}\n",
       check.checkedPairs(), check.leftOut.size(), check.count(PairVerdict::Clear),
       check.count(PairVerdict::Near), check.count(PairVerdict::Touching), check.count(PairVerdict::Clash),
-      check.count(PairVerdict::Contained), check.forbidden());
+      check.count(PairVerdict::Contained), check.forbidden(),
+      accepted > 0 ? fmt::format(", {} of them accepted", accepted) : "");
 }
 
 std::string sceneCheckChanges(const std::vector<ComparedFinding>& compared) {
@@ -243,7 +246,7 @@ std::string sceneCheckJson(const Scene& scene, const SceneCheck& check,
   json["units"] = {{"length", "m"}, {"volume", "m^3"}};
   json["threshold"] = check.threshold;
   json["rules"] = rulesJson(check);
-  json["counts"] = countsJson(check);
+  json["counts"] = countsJson(check, compared);
   json["findings"] = CheckJson::array();
   json["gone"] = CheckJson::array();
   for (const ComparedFinding* row : findingsBySeverity(compared)) {

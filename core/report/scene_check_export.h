@@ -18,8 +18,9 @@ std::vector<const ComparedFinding*> findingsBySeverity(const std::vector<Compare
 std::string sceneCheckTable(const Scene& scene, const SceneCheck& check,
                             const std::vector<ComparedFinding>& compared);
 
-/// One line: pairs checked, left out, and by verdict; and how many of the clashes no rule allows.
-std::string sceneCheckSummary(const SceneCheck& check);
+/// One line: pairs checked, left out, and by verdict; how many of the clashes no rule allows, and how many of these the
+/// user has accepted.
+std::string sceneCheckSummary(const SceneCheck& check, const std::vector<ComparedFinding>& compared);
 
 /// One line: findings that are new, worse, better and gone beside the last check; "" if there was none before.
 std::string sceneCheckChanges(const std::vector<ComparedFinding>& compared);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include <fmt/format.h>
+
 namespace nearfit {
 namespace {
 
@@ -34,6 +36,9 @@ FindingChange changeOf(const PairFinding& now, const PairRecord& before) {
     if (isClearlyMore(*depth, *before.depth)) return FindingChange::Worse;
     return isClearlyMore(*before.depth, *depth) ? FindingChange::Better : FindingChange::Same;
   }
+  // Distances of both are 0: a way out that is no longer found is all that tells a deeper clash.
+  if (now.verdict >= PairVerdict::Clash && depth.has_value() != before.depth.has_value())
+    return depth ? FindingChange::Better : FindingChange::Worse;
   if (isClearlyMore(before.distance, now.distance)) return FindingChange::Worse;
   return isClearlyMore(now.distance, before.distance) ? FindingChange::Better : FindingChange::Same;
 }
@@ -50,6 +55,15 @@ ComparedFinding compared(const PairFinding& now, const PairRecord* before) {
                           finding.change != FindingChange::Worse;
   finding.state = isAccepted ? FindingState::Accepted : FindingState::New;
   return finding;
+}
+
+/// Place of a record among those to keep, the lowest first. What is gone comes behind live clashes: after a check with a
+/// smaller threshold it can fill all places.
+int keepingTier(const PairRecord& record) noexcept {
+  const bool isThere = record.verdict != PairVerdict::Clear;
+  if (record.state == FindingState::Accepted || !record.reason.empty()) return 0;
+  if (record.state == FindingState::Fixed) return isThere ? 0 : 2;
+  return record.verdict >= PairVerdict::Clash ? 1 : 3;
 }
 
 bool wasChecked(const SceneCheck& check, const PartPair& pair) {
@@ -86,6 +100,12 @@ const char* stateWord(FindingState state, std::string_view reason) noexcept {
   return wasAccepted(state, reason) ? "changed" : wordOf(state);
 }
 
+std::size_t acceptedIn(const std::vector<ComparedFinding>& findings) noexcept {
+  return static_cast<std::size_t>(std::ranges::count_if(findings, [](const ComparedFinding& finding) {
+    return finding.now != nullptr && finding.now->isForbidden() && finding.state == FindingState::Accepted;
+  }));
+}
+
 FindingChanges changesIn(const std::vector<ComparedFinding>& findings) noexcept {
   FindingChanges changes;
   for (const ComparedFinding& finding : findings) {
@@ -113,13 +133,25 @@ std::vector<PairRecord> recordsOf(const std::vector<ComparedFinding>& findings) 
   }
   if (records.size() <= kMaxPairRecords) return records;
   const auto rank = [](const PairRecord& r) {
-    const bool isSaid = r.state == FindingState::Accepted || !r.reason.empty();
-    return std::tuple(!isSaid, -static_cast<int>(r.verdict), -r.depth.value_or(0.0), r.distance, r.pair);
+    return std::tuple(keepingTier(r), -static_cast<int>(r.verdict), -r.depth.value_or(0.0), r.distance,
+                      r.pair);
   };
   std::ranges::nth_element(records, records.begin() + static_cast<std::ptrdiff_t>(kMaxPairRecords), {}, rank);
   records.resize(kMaxPairRecords);
   std::ranges::sort(records, {}, &PairRecord::pair);
   return records;
+}
+
+std::size_t findingsNotKept(const std::vector<ComparedFinding>& findings) noexcept {
+  return findings.size() - std::min(findings.size(), kMaxPairRecords);
+}
+
+std::string notKeptText(const std::vector<ComparedFinding>& findings) {
+  const std::size_t count = findingsNotKept(findings);
+  if (count == 0) return "";
+  return fmt::format(
+      "a scene keeps {} findings: {} of the least {} not kept, and will be new in the next check",
+      kMaxPairRecords, count, count == 1 ? "is" : "are");
 }
 
 }  // namespace nearfit

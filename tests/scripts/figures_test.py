@@ -405,11 +405,23 @@ class FirstArrival(Folder):
                    "scene,pairs,agree,worst_distance_difference_m,clear,near,touching,clashes,contained\nvise,10,10,1e-16,1,2,3,4,0\n")
         self.assertIn("| vise | 10 | 10 | 1e-16 | 1 | 2 | 3 | 4 | 0 |", self.make("verdicts"))
         self.write("tests/app/results/read_back.csv",
-                   "# revision: abc\nwriter,format,reader,parts,names_equal,max_pose_error,colours_differing,shapes_not_shared,validator,"
-                   "validator_errors,validator_warnings,right\nNearfit 1,step,OCP 7,12,yes,1e-12,0,0,,,,yes\n"
-                   "Nearfit 1,glb,trimesh 5,11,no,1e-12,0,0,gltf-validator 2,3,0,no\n")
-        self.assertIn("| `.step` | OCP 7 | 12 | yes | 1e-12 | 0 | 0 | none | right |", self.make("read back"))
+                   "# revision: abc\nwriter,content,format,reader,parts,names_equal,groups_equal,max_pose_error,max_error_to_chosen_pose,"
+                   "max_volume_error,max_box_error,max_curved_volume_error,max_curved_box_error,exact_parts,closed,colours_differing,"
+                   "shapes_not_shared,validator,validator_errors,validator_warnings,right\n"
+                   "Nearfit 1,assembly,step AP214,OCP 7,12,yes,yes,1e-12,2e-12,3e-13,4e-13,,,12 of 12,,0,0,,,,yes\n"
+                   "Nearfit 1,assembly,glb,trimesh 5,11,no,yes,1e-12,2e-12,6e-8,3e-8,1e-4,1e-5,,,0,0,gltf-validator 2,3,0,no\n"
+                   "Nearfit 1,swept volume,stl,trimesh 5,1,,,,,0.2,0.01,,,,yes,,,,,,yes\n")
+        self.assertIn("| step AP214 | OCP 7 | 12 | yes | yes | 1e-12, 2e-12 | 3e-13 | 4e-13 | 12 of 12 | 0 | 0 | none | right |",
+                      self.make("read back"))
+        self.assertIn("| 6e-8 (curved 1e-4) |", self.make("read back"))
+        self.assertIn("| swept volume, `.stl` | trimesh 5 | yes | - | 0.2 | 0.01 | none | right |", self.make("read back meshes"))
         self.assertIn("| 3 errors, 0 warnings (gltf-validator 2) | **not right** |", self.make("read back"))
+        self.write("tests/app/results/report_page.csv",
+                   "# revision: abc\npage,KiB,validator,messages,false_alarms,outside_references,browser,requests,pages_a4,parted_a4,"
+                   "pages_letter,parted_letter,right\nclash,99,vnu 26,0,14,0,Chromium 156,0,5,0,6,1,no\n")
+        made = self.make("report pages")
+        self.assertIn("| report, by vnu 26 and Chromium 156 at `0123456789ab` |", made)
+        self.assertIn("| clash | 99 KiB | 0 | 0 | 0 | 5, 0 parted | 6, 1 parted | **not right** |", made)
         self.assertEqual(scenes.readme_hour_row(Results(self.root)), [])
         self.write(bench + "window_hour.csv", "# growth after the first tenth: 2097152 bytes\n"
                    "minute,memory_MB,ticks,overruns,late_p50_us,late_p99_us,late_p99_9_us,late_max_us,tick_p50_us,tick_p99_us,tick_max_us,"

@@ -20,6 +20,8 @@ constexpr double kLegendLine = 18.0;
 /// Ticks of an axis that are aimed at.
 constexpr double kTicks = 6.0;
 constexpr double kMillimetres = 1e3;
+/// Width of the separation's label as a share of the plot's.
+constexpr double kSeparationShare = 0.3;
 /// Names are cut in the legend to what fits [bytes]; tables have them whole.
 constexpr std::size_t kLegendBytes = 60;
 
@@ -147,11 +149,26 @@ class PlotWriter {
           fmt::format("{}: at least {:.4g} mm", legendName(curve.name), kMillimetres * leastOfCurve(curve)));
   }
 
+  /// Min distance [m] in a stretch of the plot's width: shares from its left end.
+  double leastBetween(double from, double to) const {
+    double least = std::numeric_limits<double>::infinity();
+    const double first = time_.from, all = time_.to - time_.from;
+    for (const PlotCurve& curve : curves_) {
+      for (std::size_t i = 0; i < std::min(curve.distances.size(), plot_.times.size()); ++i) {
+        const double share = (plot_.times[i] - first) / all;
+        if (share >= from && share <= to) least = std::min(least, curve.distances[i]);
+      }
+    }
+    return least;
+  }
+
   void writeSeparation() {
     if (!plot_.separation) return;
     const double y = distance_.placeOf(kMillimetres * *plot_.separation);
     line(kLeft, y, kWidth - kRight, y, "#BB0000", "6 4");
-    label(kWidth - kRight - 4.0, y - 4.0, "end",
+    // A path into a tight place is near the line at its end, and one out of it at its start.
+    const bool isAtStart = leastBetween(0.0, kSeparationShare) > leastBetween(1.0 - kSeparationShare, 1.0);
+    label(isAtStart ? kLeft + 4.0 : kWidth - kRight - 4.0, y - 4.0, isAtStart ? "start" : "end",
           fmt::format("certified separation {:.4g} mm", kMillimetres * *plot_.separation));
   }
 

@@ -44,17 +44,20 @@ const std::string& nameOf(const FitReportRequest& request, PartId id) {
 std::string clashSentence(const FitReportRequest& request, const FitReport& report) {
   const SceneCheck& check = report.check;
   const std::size_t pairs = check.checkedPairs(), forbidden = check.forbidden();
+  const std::size_t accepted = acceptedIn(report.findings);
   if (pairs == 0) return "Nothing was judged: no two visible parts were to be checked";
-  if (forbidden > 0) {
-    const auto accepted =
-        static_cast<std::size_t>(std::ranges::count_if(report.findings, [](const ComparedFinding& f) {
-          return f.now != nullptr && f.now->isForbidden() && f.state == FindingState::Accepted;
-        }));
+  if (forbidden > accepted) {
     return fmt::format(
         "Does not fit: {} of {} clash, or one part is inside the other, and no rule allows it{}", forbidden,
         countOf(pairs, "pair", "pairs"),
         accepted > 0 ? fmt::format(" ({} accepted by the user)", accepted) : "");
   }
+  if (forbidden > 0)
+    return fmt::format(
+        "Fits but for what the user has accepted: {} of {} clash, or one part is inside the other, and no "
+        "rule "
+        "allows it",
+        forbidden, countOf(pairs, "pair", "pairs"));
   const auto allowed = check.count(PairVerdict::Clash) + check.count(PairVerdict::Contained);
   std::string sentence =
       allowed > 0
@@ -126,7 +129,7 @@ void addCertificate(FitReportRequest& request, const std::filesystem::path& file
 bool FitReport::isGood() const noexcept {
   const bool isRefused = path && path->verification && !path->verification->isProven();
   const bool isMeeting = path && path->least && path->least->distance == 0.0;
-  return check.forbidden() == 0 && !isRefused && !isMeeting;
+  return check.forbidden() == acceptedIn(findings) && !isRefused && !isMeeting;
 }
 
 FitReport makeFitReport(const FitReportRequest& request, const ProgressCallback& progress) {

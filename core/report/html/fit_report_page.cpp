@@ -53,7 +53,9 @@ void putSummary(ReportPageWriter& page, const FitReportRequest& request, const F
   page.sentence(fmt::format(
       "Clear: farther apart than the threshold of {}. Near: apart, but nearer. Touching: within what "
       "rounding comes to. Clash: surfaces pass through each other. Contained: one part is inside the "
-      "other. Not allowed: clashes and contained parts that no rule allows.",
+      "other. Not allowed: clashes and contained parts that no rule allows. Accepted ones do not count for "
+      "the "
+      "verdict as long as they are as they were accepted.",
       mmText(check.threshold)));
   const bool hasLast = std::ranges::any_of(
       report.findings, [](const ComparedFinding& finding) { return finding.before.has_value(); });

@@ -43,7 +43,7 @@ void putCertificate(ReportPageWriter& page, const Certificate& certificate,
         fmt::format("Proven anew for this report: everywhere on the path, also between its poses, the "
                     "surfaces of what moves and of "
                     "all other visible parts are at least {} apart, and none is inside another. Verified "
-                    "by {} of {}, which share no "
+                    "in {} of {}, by code that shares no "
                     "search with what made the certificate.",
                     mmText(certificate.separation), countOf(verification.stretches, "stretch", "stretches"),
                     countOf(certificate.pairs.size(), "pair", "pairs")));

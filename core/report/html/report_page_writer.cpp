@@ -29,6 +29,7 @@ constexpr const char* kPageStyle =
     "td.number data { white-space: nowrap; }\n"
     "dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.6mm 4mm; margin: 0; }\n"
     "dt { font-weight: bold; } dd { margin: 0; overflow-wrap: anywhere; }\n"
+    "#path > dl { break-after: avoid; margin-bottom: 2mm; }\n"
     "code { font: 7.5pt/1.3 monospace; overflow-wrap: anywhere; }\n"
     "p.verdict { font-size: 12pt; padding: 2mm 3mm; border-left: 2mm solid; background: #eee;\n"
     "  overflow-wrap: anywhere; }\n"

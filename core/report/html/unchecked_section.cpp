@@ -95,6 +95,9 @@ void putUncheckedPairs(ReportPageWriter& page, const FitReport& report) {
              [](const PairFinding& f) { return f.clash && !f.clash->freeing; });
   casesEntry(page, check, "more curves than were searched",
              [](const PairFinding& f) { return f.clash && !f.clash->isEveryCurve; });
+  if (findingsNotKept(report.findings) > 0)
+    page.add("li", fmt::format("Not all of these findings can be kept for the next check: {}.",
+                               notKeptText(report.findings)));
   std::size_t kept = 0;
   for (const ComparedFinding& finding : report.findings) {
     if (finding.now == nullptr && finding.change != FindingChange::Gone) ++kept;

@@ -162,19 +162,67 @@ def readme_hour_row(results):
 READ_BACK = "tests/app/results/read_back.csv"
 
 
+def _outcome(row):
+    return "right" if row["right"] == "yes" else "**not right**"
+
+
+def _gltf_issues(row):
+    return f"{row['validator_errors']} errors, {row['validator_warnings']} warnings ({row['validator']})" if row["validator"] else "none"
+
+
+def _flat_and_curved(row, what):
+    curved = row[f"max_curved_{what}_error"]
+    return f"{row[f'max_{what}_error']} (curved {curved})" if curved else row[f"max_{what}_error"]
+
+
+def _rows_of_content(table, *contents):
+    return [row for row in table.where() if row["content"] in contents]
+
+
+def _written_by(table):
+    return ", ".join(sorted({f"{row['writer']} at `{table.head['revision']}`" for row in table.where()}))
+
+
 @c.needs(READ_BACK, command="tests/app/export/read_back.py")
 def read_back(results):
-    table, rows = results.table(READ_BACK), []
-    for row in table.where():
-        errors = f"{row['validator_errors']} errors, {row['validator_warnings']} warnings ({row['validator']})" if row["validator"] else "none"
-        rows.append([f"`.{row['format']}`", row["reader"], row["parts"], row["names_equal"], row["max_pose_error"], row["colours_differing"],
-                     row["shapes_not_shared"], errors, "right" if row["right"] == "yes" else "**not right**"])
-    writers = ", ".join(sorted({f"{row['writer']} at `{table.head['revision']}`" for row in table.where()}))
-    return n.table([f"format, written by {writers}", "read by", "parts", "names equal", "poses off by at most", "colours that differ",
-                    "shapes not shared", "validator", "outcome"], rows, right_from=9)
+    """Placements and assemblies, with the poses of the program and those that were chosen."""
+    table = results.table(READ_BACK)
+    rows = [[row["format"], row["reader"], row["parts"], row["names_equal"], row["groups_equal"] or "-",
+             f"{row['max_pose_error']}, {row['max_error_to_chosen_pose']}", _flat_and_curved(row, "volume") or "-",
+             _flat_and_curved(row, "box") or "-", row["exact_parts"] or "-", row["colours_differing"] or "-",
+             row["shapes_not_shared"] or "-", _gltf_issues(row), _outcome(row)]
+            for row in _rows_of_content(table, "placement", "assembly")]
+    return n.table([f"format, written by {_written_by(table)}", "read by", "parts", "names equal", "groups equal",
+                    "poses off by at most: JSON export, chosen", "volumes off by", "boxes off by", "solids with their curved faces",
+                    "colours that differ", "shapes not shared", "validator", "outcome"], rows, right_from=13)
+
+
+@c.needs(READ_BACK, command="tests/app/export/read_back.py")
+def read_back_meshes(results):
+    """Meshes, the animation of a path, and swept volumes."""
+    table = results.table(READ_BACK)
+    rows = [[f"{row['content']}, `.{row['format']}`", row["reader"], row["closed"] or "-", row["max_error_to_chosen_pose"] or "-",
+             _flat_and_curved(row, "volume") or "-", _flat_and_curved(row, "box") or "-", _gltf_issues(row), _outcome(row)]
+            for row in _rows_of_content(table, "mesh", "animation", "swept volume")]
+    return n.table(["file", "read by", "closed", "vertices off by [m]", "volumes off by", "boxes off by", "validator", "outcome"], rows,
+                   right_from=8)
+
+
+REPORT_PAGE = "tests/app/results/report_page.csv"
+
+
+@c.needs(REPORT_PAGE, command="tests/app/cli/report_page.py")
+def report_pages(results):
+    table = results.table(REPORT_PAGE)
+    rows = [[row["page"], f"{row['KiB']} KiB", row["messages"], row["outside_references"], row["requests"],
+             *(f"{row[f'pages_{paper}']}, {row[f'parted_{paper}']} parted" for paper in ("a4", "letter")), _outcome(row)]
+            for row in table.where()]
+    programs = " and ".join(dict.fromkeys(row[which] for row in table.where() for which in ("validator", "browser")))
+    return n.table([f"report, by {programs} at `{table.head['revision']}`", "size", "messages", "references to elsewhere",
+                    "requests to the network", "pages on A4", "on Letter", "outcome"], rows, right_from=8)
 
 
 FIGURES = {
-    "read back": read_back, "checks": checks, "turns of the check": check_turns, "seconds of a peer": peer_seconds, "verdicts": verdicts,
+    "read back": read_back, "read back meshes": read_back_meshes, "report pages": report_pages, "checks": checks, "turns of the check": check_turns, "seconds of a peer": peer_seconds, "verdicts": verdicts,
     "paths": paths, "suggestions": suggestions, "documents": documents, "window hour": hour, "window hour, verdict": hour_verdict,
 }

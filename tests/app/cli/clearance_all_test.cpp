@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -127,6 +128,48 @@ TEST_F(ClearanceAll, SavedFindingsAreWhatTheNextCheckComparesWith) {
   EXPECT_EQ(finding["change"], "same");
   EXPECT_NEAR(finding["before"]["depth"].get<double>(), 0.1, 1e-9);
   EXPECT_EQ(runCli({"clearance", clashing_, "--save"}).exitCode, 2) << "it needs --all";
+}
+
+/// Exit code 3 stayed for ever, so that a job of CI could not be made to pass.
+TEST_F(ClearanceAll, AnAcceptedClashPassesUntilItChanges) {
+  ASSERT_EQ(check(clashing_, {"--save"}).exitCode, 3);
+  ASSERT_EQ(runCli({"scene", "finding", clashing_, "--accept", "Plate:Cube=cast in"}).exitCode, 0);
+  const auto accepted = check(clashing_, {});
+  EXPECT_EQ(accepted.exitCode, 0) << accepted.err;
+  EXPECT_THAT(accepted.out, HasSubstr("1 not allowed, 1 of them accepted"));
+  EXPECT_EQ(check(clashing_, {"--strict"}).exitCode, 3);
+  EXPECT_EQ(runCli({"report", clashing_, "-o", path("accepted.html")}).exitCode, 0);
+  const std::string before = readBytes(clashing_);
+  Json scene = Json::parse(before);
+  scene["parts"][1]["position"][2] = 0.85;
+  folder_.write("clash.nearfit", scene.dump());
+  EXPECT_EQ(check(clashing_, {}).exitCode, 3) << "it is deeper than what was accepted";
+  scene["parts"][1]["position"][2] = 0.9;
+  scene["parts"][0]["name"] = "Bed";
+  folder_.write("clash.nearfit", scene.dump());
+  EXPECT_EQ(check(clashing_, {}).exitCode, 0) << "only a name is another";
+  EXPECT_EQ(runCli({"clearance", clashing_, "--strict"}).exitCode, 2) << "it needs --all";
+}
+
+TEST_F(ClearanceAll, FindingsBeyondTheLimitOfASceneAreToldWhenItIsSaved) {
+  // 202 cubes, each near all others: 20,301 pairs.
+  const std::string many = path("many.nearfit");
+  std::vector<std::string> arguments{"scene", "new", many, "--unit", "m"};
+  for (int i = 0; i < 202; ++i) {
+    arguments.emplace_back("--part");
+    arguments.push_back(fmt::format("C{}={}@{},0,0,1,0,0,0", i, path("cube.obj"), 2 * i));
+  }
+  ASSERT_EQ(runCli(arguments).exitCode, 0);
+  const std::vector<std::string> options{"--threshold", "1000", "--minima", "1", "--csv", path("many.csv")};
+  EXPECT_EQ(check(many, options).err, "");
+  std::vector<std::string> saving = options;
+  saving.emplace_back("--save");
+  const auto saved = check(many, saving);
+  EXPECT_EQ(saved.exitCode, 0) << saved.err;
+  EXPECT_THAT(saved.err, HasSubstr("warning: a scene keeps 20000 findings: 301 of the least are not kept"));
+  EXPECT_EQ(Json::parse(readBytes(many))["pairRecords"].size(), 20'000U);
+  EXPECT_THAT(check(many, options).out,
+              HasSubstr("since the last check: 301 new, 0 worse, 0 better, 0 gone"));
 }
 
 TEST_F(ClearanceAll, WhatMakesNoSenseIsWrongUsage) {

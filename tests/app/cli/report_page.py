@@ -4,15 +4,19 @@
     sudo apt-get install chromium default-jre-headless poppler-utils
     (cd /tmp && npm install vnu-jar)
     tests/app/cli/report_page.py --vnu /tmp/node_modules/vnu-jar/build/dist/vnu.jar --out /tmp/reports [--bin build/release/bin]
+        [--csv FILE]
 
 Reports of a clash with a rule and an accepted finding, of a path with its certificate and with one that is refused, of the
 demo's path, of names made to break a page, and of a scene without parts. Each must be valid for the Nu HTML checker without
 a message (https://validator.w3.org/nu; but for a false alarm, see validator_messages), must name nothing that a browser would fetch or run, and must be shown and printed
-by Chromium without asking the network for anything; what it holds as text must be in what it prints. OUT then has of each
-report NAME.html, NAME.png (the screen), NAME.pdf, and NAME-1.png ... (its pages on paper) to look at. Ends with 1 if one is
-not right.
+by Chromium without asking the network for anything; what it holds as text must be in what it prints. On A4 and on Letter no row
+of a table, entry of a list, figure or finding is parted by the end of a page. OUT then has of each report NAME.html, NAME.png
+(the screen), NAME-a4.pdf, NAME-letter.pdf, and NAME-a4-1.png ... (its pages on paper) to look at. Ends with 1 if one is not
+right. --csv writes a row for each report; results that are kept are of a clean revision: tests/app/results/report_page.csv, of
+which resources/scripts/figures makes the table in resources/docs/cli.md.
 """
 import argparse
+import csv
 import json
 import re
 import shutil
@@ -23,6 +27,10 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
+sys.dont_write_bytecode = True  # The folder is the repository's.
+sys.path.insert(0, str(ROOT / "resources" / "scripts" / "figure_sources"))
+import heads  # noqa: E402
+
 # They end tags, attributes, comments and styles, turn the direction of text, or are too long for a line.
 HOSTILE_NAMES = ["<script>alert(1)</script>", "\"><img src=https://example.org/x.png onerror=alert(1)>", "</title></style>", "a&amp;b",
                  "--><!--", "abc\u202egpj.exe", "'; drop table parts", "=cmd|'/c calc'!A1", "\u0378\ufeffnobody sees", "軸受け 🔩",
@@ -35,6 +43,30 @@ FALSE_ALARM = re.compile(r"Resource violates Content Security Policy \(meta tag\
 MINUTES = 60
 # As printed a page is parted by lines and hyphens: only letters and digits count.
 LETTERS = re.compile(r"[\W_]+", re.UNICODE)
+# For what has to stand on one page: a font may lack others.
+ASCII = re.compile(r"[^A-Za-z0-9]+")
+PAPERS = {"a4": "A4", "letter": "letter"}
+
+
+class Blocks(HTMLParser):
+    """Texts of rows, entries of lists, captions and findings, as ASCII letters and digits, in the order of the page."""
+
+    def __init__(self):
+        super().__init__()
+        self.texts, self.open = [], []
+
+    def handle_starttag(self, tag, attributes):
+        if tag in ("tr", "li", "figcaption") or ("class", "finding") in attributes:
+            self.open.append((tag, len(self.texts)))
+            self.texts.append("")
+
+    def handle_endtag(self, tag):
+        if self.open and self.open[-1][0] == tag:
+            self.open.pop()
+
+    def handle_data(self, text):
+        for _, index in self.open:
+            self.texts[index] += ASCII.sub("", text)
 
 
 class Outside(HTMLParser):
@@ -216,12 +248,13 @@ def outside_problems(html):
 
 
 def validator_messages(html, jar):
-    """All but one kind: the checker (26.9.27) holds that any policy with img-src or default-src, even "img-src data:", blocks
-    pictures in the page itself. Browsers do not: pictures_missing() proves that they are shown."""
+    """(messages, number of false alarms). The checker (26.9.27) holds that any policy with img-src or default-src, even
+    "img-src data:", blocks pictures in the page itself. Browsers do not: pictures_missing() proves that they are shown."""
     result = run("java", "-Xss8m", "-jar", jar, "--format", "json", html, codes=(0, 1))
     messages = json.loads(result.stdout + result.stderr)["messages"]
-    return [f"line {m.get('lastLine', 0)}: {m.get('subType', m['type'])}: {m['message']}" for m in messages
+    said = [f"line {m.get('lastLine', 0)}: {m.get('subType', m['type'])}: {m['message']}" for m in messages
             if not FALSE_ALARM.match(m["message"])]
+    return said, len(messages) - len(said)
 
 
 def pictures_missing(html, pdf):
@@ -241,23 +274,76 @@ def requests_in(log):
 
 
 def show(html, out, folder):
-    """Screen and paper by Chromium; returns problems."""
+    """Screen and papers by Chromium; returns what it asks the network for."""
     log = folder / "net.json"
     chromium = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--disable-background-networking",
                 "--disable-component-update", "--no-first-run", f"--user-data-dir={folder / 'profile'}"]
-    pdf, screen = out / f"{html.stem}.pdf", out / f"{html.stem}.png"
-    for old in (pdf, screen, *out.glob(f"{html.stem}-*.png")):
+    screen = out / f"{html.stem}.png"
+    for old in (screen, *out.glob(f"{html.stem}-*.p*")):
         old.unlink(missing_ok=True)
     run(*chromium, f"--log-net-log={log}", "--window-size=1000,2400", f"--screenshot={screen}", html.as_uri())
-    problems = [f"the browser asks for {url}" for url in requests_in(log)]
-    run(*chromium, "--no-pdf-header-footer", f"--print-to-pdf={pdf}", html.as_uri())
-    run("pdftoppm", "-r", "80", "-png", pdf, out / html.stem)
-    return problems
+    text = html.read_text(encoding="utf-8")
+    assert text.count("@page {") == 1
+    for name, size in PAPERS.items():
+        # The paper is the printer's to choose; without one Chromium takes the page's word.
+        sized = folder / f"{html.stem}-{name}.html"
+        sized.write_text(text.replace("@page {", f"@page {{ size: {size};"), encoding="utf-8")
+        pdf = out / f"{html.stem}-{name}.pdf"
+        run(*chromium, "--no-pdf-header-footer", f"--print-to-pdf={pdf}", sized.as_uri())
+    run("pdftoppm", "-r", "100", "-png", out / f"{html.stem}-a4.pdf", out / f"{html.stem}-a4")
+    return requests_in(log)
 
 
-def missing_in_print(pdf, wanted):
-    printed = LETTERS.sub("", run("pdftotext", "-raw", pdf, "-").stdout)
+def pages_of(pdf):
+    """Text of each page in the order of the file, where a row's cells follow each other."""
+    return run("pdftotext", "-raw", pdf, "-").stdout.split("\f")[:-1]
+
+
+def missing_in_print(pages, wanted):
+    printed = LETTERS.sub("", "".join(pages))
     return [f"{text!r} is not printed" for text in wanted if LETTERS.sub("", text) not in printed]
+
+
+def parted(html, pages):
+    """Rows, entries, captions and findings that are on no page as a whole."""
+    blocks = Blocks()
+    blocks.feed(html.read_text(encoding="utf-8"))
+    printed = [ASCII.sub("", page) for page in pages]
+    return [text for text in blocks.texts if not any(text in page for page in printed)]
+
+
+def is_figure_parted(pdf, pages):
+    """True if a page has more captions of pictures than pictures."""
+    listed = [line.split() for line in run("pdfimages", "-list", pdf).stdout.splitlines()[2:]]
+    pictures = [int(fields[0]) for fields in listed if fields[2] == "image"]
+    return any(len(re.findall(r"mm\s+across\.", page)) > pictures.count(i + 1) for i, page in enumerate(pages))
+
+
+def version_of(*command):
+    return run(*command).stdout.strip()
+
+
+def check(html, wanted, options, folder):
+    """(row of the result, problems)"""
+    messages, false_alarms = validator_messages(html, options.vnu)
+    outside = outside_problems(html)
+    requests = show(html, options.out, folder)
+    problems = messages + outside + [f"the browser asks for {url}" for url in requests]
+    row = {"page": html.stem, "KiB": f"{html.stat().st_size / 1024:.0f}",
+           "validator": f"vnu {version_of('java', '-jar', options.vnu, '--version').split()[0]}", "messages": len(messages), "false_alarms": false_alarms, "outside_references": len(outside),
+           "browser": " ".join(version_of("chromium", "--version").split()[:2]), "requests": len(requests)}
+    for name in PAPERS:
+        pdf = options.out / f"{html.stem}-{name}.pdf"
+        pages = pages_of(pdf)
+        torn = parted(html, pages)
+        is_torn = is_figure_parted(pdf, pages)
+        row[f"pages_{name}"], row[f"parted_{name}"] = len(pages), len(torn) + is_torn
+        problems += [f"{name}: {text[:80]!r} is on no page as a whole" for text in torn]
+        problems += [f"{name}: {problem}" for problem in pictures_missing(html, pdf) + missing_in_print(pages, wanted)]
+        if is_torn:
+            problems.append(f"{name}: a picture and its caption are on different pages")
+    row["right"] = "no" if problems else "yes"
+    return row, problems
 
 
 def main():
@@ -265,28 +351,33 @@ def main():
     options.add_argument("--bin", type=Path, default=ROOT / "build" / "release" / "bin")
     options.add_argument("--vnu", type=Path, required=True, help="vnu.jar of the Nu HTML checker")
     options.add_argument("--out", type=Path, required=True, help="folder for the pages")
+    options.add_argument("--csv", type=Path, help="write the rows to this file too")
     options = options.parse_args()
     for tool in ("java", "chromium", "pdftoppm", "pdftotext", "pdfimages"):
         if shutil.which(tool) is None:
             sys.exit(f"report_page.py: {tool} is missing; see --help for what to install")
+    # Nothing is timed.
+    head = heads.head_or_exit("report_page.py", options.csv, ROOT, options.bin.resolve().parent, allows_busy=True)
     options.out = options.out.resolve()
     options.out.mkdir(parents=True, exist_ok=True)
-    good = True
+    rows = []
     for name in ("clash", "path", "refused", "demo", "hostile", "empty"):
         with tempfile.TemporaryDirectory() as folder:
             folder = Path(folder)
-            reports = Reports((options.bin / "nearfit-cli").resolve(), folder, options.out)
-            wanted = getattr(reports, name)(name)
-            html = options.out / f"{name}.html"
-            problems = validator_messages(html, options.vnu) + outside_problems(html) + show(html, options.out, folder)
-            problems += pictures_missing(html, options.out / f"{name}.pdf")
-            problems += missing_in_print(options.out / f"{name}.pdf", wanted)
-        pages = len(list(options.out.glob(f"{name}-*.png")))
-        print(f"{name}: {html.stat().st_size / 1024:.0f} KiB, {pages} pages{'' if not problems else '  NOT RIGHT'}")
+            wanted = getattr(Reports((options.bin / "nearfit-cli").resolve(), folder, options.out), name)(name)
+            row, problems = check(options.out / f"{name}.html", wanted, options, folder)
+        print(", ".join(f"{key} {value}" for key, value in row.items()) + ("  NOT RIGHT" if problems else ""))
         for problem in problems:
             print("  " + problem)
-        good = good and not problems
-    return 0 if good else 1
+        rows.append(row)
+    if options.csv:
+        options.csv.parent.mkdir(parents=True, exist_ok=True)
+        with options.csv.open("w", newline="", encoding="utf-8") as out:
+            out.writelines(f"# {line}\n" for line in head)
+            writer = csv.DictWriter(out, rows[0].keys(), lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
+    return 0 if all(row["right"] == "yes" for row in rows) else 1
 
 
 if __name__ == "__main__":

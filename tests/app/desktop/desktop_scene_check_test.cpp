@@ -92,6 +92,7 @@ class DesktopSceneCheckTest : public QObject {
   void theTableIsFilteredByTextVerdictAndState();
   void aCheckThatIsCancelledLeavesTheButtonForAnother();
   void findingsAreKeptInTheSceneFile();
+  void findingsBeyondTheLimitOfASceneAreTold();
   void theTableIsExportedAsCsvAndJson();
   void theSceneIsCheckedWhileAPartIsFelt();
   void aHiddenPanelMarksNothing();
@@ -365,6 +366,23 @@ void DesktopSceneCheckTest::findingsAreKeptInTheSceneFile() {
   f.check();
   QCOMPARE(f.of("fixed", "plug", PairFindingsModel::Change), QStringLiteral("same"));
   QCOMPARE(f.of("fixed", "plug", PairFindingsModel::State), QStringLiteral("accepted"));
+}
+
+/// They were left out of the scene without a word.
+void DesktopSceneCheckTest::findingsBeyondTheLimitOfASceneAreTold() {
+  SceneCheckFixture f;
+  // With the three that are there 202 parts, of which all 20,301 pairs are within the threshold.
+  const PartGeometryPtr cube = f.d.session().scene().get(f.d.partId("moving")).geometry;
+  NewNodes more;
+  for (int i = 1; i < 200; ++i)
+    more.parts.push_back({cube, "cube " + std::to_string(i), {{1, 0, 0, 0}, {0.1 * i, 0.0, 0.0}}});
+  f.d.session().addNodes(more);
+  f.d.type<QDoubleSpinBox>("sceneCheckThreshold", "100 m");
+  f.check();
+  QCOMPARE(f.table->model()->rowCount(), 20'301);
+  QCOMPARE(f.d.session().scene().pairRecords().size(), kMaxPairRecords);
+  const QString note = f.d.text("sceneCheckNote");
+  QVERIFY2(note.contains(QStringLiteral("301 of the least cannot be accepted")), qPrintable(note));
 }
 
 void DesktopSceneCheckTest::theTableIsExportedAsCsvAndJson() {

@@ -93,9 +93,15 @@ TEST(SceneCheckExport, TheTableBeginsWithTheWorstAndTellsWhatIsGone) {
   EXPECT_LT(table.find("clash "), table.find("near "));
   EXPECT_THAT(table, HasSubstr("=Box | Lid, upper"));
   EXPECT_THAT(sceneCheckTable(scene, nothing, compareFindings(nothing, before)), HasSubstr("gone"));
-  EXPECT_EQ(sceneCheckSummary(check),
+  EXPECT_EQ(sceneCheckSummary(check, compareFindings(check, {})),
             "3 pairs checked, 0 left out: 0 clear, 2 near, 0 touching, 1 clashes, 0 contained; "
             "1 not allowed\n");
+  std::vector<PairRecord> accepted = before;
+  accepted[0].state = FindingState::Accepted;
+  accepted[0].reason = "glued";
+  const std::vector<ComparedFinding> compared = compareFindings(check, accepted);
+  EXPECT_THAT(sceneCheckSummary(check, compared), HasSubstr("; 1 not allowed, 1 of them accepted\n"));
+  EXPECT_EQ(Json::parse(sceneCheckJson(scene, check, compared))["counts"]["accepted"], 1);
 }
 
 TEST(SceneCheckExport, EachFormSaysWhatTheLastCheckFound) {

@@ -173,5 +173,65 @@ TEST(FindingStates, TheWorstAndThoseWithAReasonAreKeptWhereThereAreTooMany) {
   EXPECT_EQ(std::ranges::count(kept, FindingState::Accepted, &PairRecord::state), 1);
 }
 
+/// Findings marked as fixed without a word were dropped first.
+TEST(FindingStates, ThoseMarkedAsFixedAreKeptUntilTheyAreCheckedAgain) {
+  std::vector<PairFinding> findings;
+  for (std::uint32_t i = 0; i < kMaxPairRecords + 10; ++i)
+    findings.push_back(near(pairOf(1, 10 + i), 1e-3 + 1e-9 * i));
+  std::vector<PairRecord> fixed = saved(checkOf({findings.back()}));
+  fixed[0].state = FindingState::Fixed;
+  // Its parts are hidden in this check.
+  findings.pop_back();
+  const SceneCheck check = checkOf(findings);
+  const std::vector<ComparedFinding> compared = compareFindings(check, fixed);
+  const std::vector<PairRecord> kept = recordsOf(compared);
+  EXPECT_EQ(kept.size(), kMaxPairRecords);
+  EXPECT_EQ(findingsNotKept(compared), 10U);
+  EXPECT_EQ(notKeptText(compared),
+            "a scene keeps 20000 findings: 10 of the least are not kept, and will be new in the next check");
+  EXPECT_EQ(kept.back(), fixed[0]);
+}
+
+TEST(FindingStates, WhatIsGoneTakesNoPlaceOfAClash) {
+  std::vector<PairFinding> nears, clashes;
+  for (std::uint32_t i = 0; i < kMaxPairRecords; ++i) {
+    nears.push_back(near(pairOf(1, 10 + i), 1e-3));
+    clashes.push_back(clash(pairOf(2, 10 + i), 1e-4));
+  }
+  SceneCheck check = checkOf({clashes.begin(), clashes.begin() + 100});
+  for (std::uint32_t i = 0; i < kMaxPairRecords; ++i)
+    check.parts.push_back(PartId{10 + i});
+  const std::vector<ComparedFinding> compared = compareFindings(check, saved(checkOf(nears)));
+  const std::vector<PairRecord> kept = recordsOf(compared);
+  EXPECT_EQ(findingsNotKept(compared), 100U);
+  EXPECT_EQ(std::ranges::count(kept, PairVerdict::Clash, &PairRecord::verdict), 100);
+  EXPECT_EQ(std::ranges::count(kept, FindingState::Fixed, &PairRecord::state),
+            static_cast<std::ptrdiff_t>(kMaxPairRecords - 100));
+}
+
+/// An accepted clash that no way out was found of any more stayed accepted.
+TEST(FindingStates, AClashWithoutAWayOutIsWorseThanOneWithADepth) {
+  PairFinding stuck = clash(pairOf(1, 2), 1e-4);
+  stuck.clash->freeing.reset();
+  const SceneCheck free = checkOf({clash(pairOf(1, 2), 1e-4)}), caught = checkOf({stuck});
+  EXPECT_EQ(compareFindings(caught, saved(free)).at(0).change, FindingChange::Worse);
+  EXPECT_EQ(compareFindings(free, saved(caught)).at(0).change, FindingChange::Better);
+  EXPECT_EQ(compareFindings(caught, saved(caught)).at(0).change, FindingChange::Same);
+}
+
+TEST(FindingStates, AcceptedClashesCountUntilTheyAreWorse) {
+  const SceneCheck check =
+      checkOf({clash(pairOf(1, 2), 1e-4), clash(pairOf(1, 3), 1e-4), near(pairOf(1, 4), 1e-3)});
+  std::vector<PairRecord> records = saved(check);
+  EXPECT_EQ(acceptedIn(compareFindings(check, records)), 0U);
+  for (PairRecord& record : records) {
+    record.state = FindingState::Accepted;
+    record.reason = "glued";
+  }
+  EXPECT_EQ(acceptedIn(compareFindings(check, records)), 2U) << "what is near is not forbidden";
+  const SceneCheck deeper = checkOf({clash(pairOf(1, 2), 2e-4), clash(pairOf(1, 3), 1e-4)});
+  EXPECT_EQ(acceptedIn(compareFindings(deeper, records)), 1U);
+}
+
 }  // namespace
 }  // namespace nearfit::finding_states_test

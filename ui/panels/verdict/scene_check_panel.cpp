@@ -399,6 +399,13 @@ QString SceneCheckPanel::noteText() const {
                : tr("No two visible parts are within %1.").arg(formatRoundLength(shown_->check.threshold));
   if (sorted_->rowCount() == 0) return tr("No finding is as the filters say.");
   const std::optional<int> row = markedRow();
+  if (shown_ != nullptr && (!row || !model_->at(*row).isKept)) {
+    if (const std::size_t count = findingsNotKept(shown_->compared); count > 0)
+      return tr("A scene keeps %L1 findings: %L2 of the least cannot be accepted, and will be new in the "
+                "next check.")
+          .arg(kMaxPairRecords)
+          .arg(count);
+  }
   if (!row) return tr("Select a row to see the two parts; Return goes to the place.");
   const ShownFinding& finding = model_->at(*row);
   if (finding.now == nullptr)

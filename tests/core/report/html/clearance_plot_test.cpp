@@ -110,6 +110,19 @@ TEST(ClearancePlot, TheSeparationAndHostileNamesAreShownAsText) {
   EXPECT_THAT(page.text, HasSubstr("…: at least 1 mm"));
 }
 
+/// The label was written over the curves of a path into a slot.
+TEST(ClearancePlot, TheSeparationIsNamedAtTheEndWhereCurvesAreFarther) {
+  const std::vector<double> times{0, 1, 2, 3}, in{0.01, 0.01, 0.001, 0.001}, out{0.001, 0.001, 0.01, 0.01};
+  const auto anchorOfLabel = [&](const std::vector<double>& distances) {
+    for (const test::HtmlElement& text :
+         test::elementsOf(pageOf({times, {{"Post", distances}}, 1.0, 5e-4}), "text"))
+      if (text.text.starts_with("certified separation")) return text.attribute("text-anchor");
+    return std::string();
+  };
+  EXPECT_EQ(anchorOfLabel(in), "start");
+  EXPECT_EQ(anchorOfLabel(out), "end");
+}
+
 TEST(ClearancePlot, NothingNearGivesAnEmptyPlot) {
   const std::vector<double> times{0, 1}, distances{kFar, kFar};
   EXPECT_TRUE(curvesOf(pageOf({times, {{"Post", distances}}, 1.0, {}})).empty());

@@ -198,6 +198,29 @@ TEST(FitReport, ACheckThatFindsTheSameSaysThatNothingHasChanged) {
   EXPECT_THAT(summary(), HasSubstr("Since the last check 0 findings are new, 2 worse, 0 better"));
 }
 
+/// A report said "Does not fit" for ever after its clash was accepted.
+TEST(FitReport, AnAcceptedClashIsNamedAndPassesUntilItIsDeeper) {
+  Scene scene = boxes();
+  std::vector<PairRecord> records = recordsOf(makeFitReport(requestOf(scene, 0.25)).findings);
+  for (PairRecord& record : records) {
+    record.state = FindingState::Accepted;
+    record.reason = "glued";
+  }
+  scene.setPairRecords(records);
+  const FitReport accepted = makeFitReport(requestOf(scene, 0.25));
+  EXPECT_TRUE(accepted.isGood());
+  EXPECT_EQ(
+      verdictSentence(requestOf(scene, 0.25), accepted),
+      "Fits but for what the user has accepted: 1 of 3 pairs clash, or one part is inside the other, and "
+      "no rule allows it.");
+  Part lid = *scene.parts()[1];
+  lid.worldFromPart.translation.z = 0.8;
+  scene.replace(lid);
+  const FitReport deeper = makeFitReport(requestOf(scene, 0.25));
+  EXPECT_FALSE(deeper.isGood());
+  EXPECT_THAT(verdictSentence(requestOf(scene, 0.25), deeper), HasSubstr("Does not fit: 1 of 3 pairs"));
+}
+
 /// Four pictures of nothing stood there, and the verdict was green.
 TEST(FitReport, ASceneWithoutPartsHasNoPicturesAndNoGoodVerdict) {
   const std::string text = fitReportPage(requestOf(Scene(), 0.25), makeFitReport(requestOf(Scene(), 0.25)));
