@@ -149,18 +149,29 @@ def skips(results):
     return n.table(["not computed", "where", "with the skip, p50", "without", "times, p50", "p99"], rows, right_from=2)
 
 
+def _window_goals(row):
+    """What a row of window.csv says of its goals. Files of before have a goal for one column alone."""
+    checks = [(row["goal_of"], row.get(row["goal_of"]), row["goal"], row["unit"]),
+              ("p99.9", row["p999"], row.get("goal_p999"), row["unit"]),
+              ("ticks left out", row.get("left_out"), row.get("goal_left_out"), "")]
+    said = []
+    for name, value, goal, unit in checks:
+        if not value or not goal or (name != "ticks left out" and float(goal) <= 0):
+            continue
+        verdict = "met" if float(value) <= float(goal) else "**missed**"
+        said.append(f"{verdict}: {name} {n.plain(float(goal))} {unit}".rstrip())
+    return "; ".join(said)
+
+
 def window(results):
     table = results.bench("window")
+    counts = "left_out" in table.columns
     rows = []
     for row in table.where():
-        unit = row["unit"]
-        said = ""
-        if row["goal_of"]:
-            is_met = float(row[row["goal_of"]]) <= float(row["goal"])
-            said = f"{'met' if is_met else '**missed**'}: {row['goal_of']} {n.plain(float(row['goal']))} {unit}"
-        rows.append([f"`{row['figure']}`", row["way"], unit, *(n.plain(float(row[p])) for p in ("p50", "p99", "max")), said,
-                     row["remark"]])
-    return n.table(["figure", "way", "unit", "p50", "p99", "max", "goal", "remark"], rows, right_from=9)
+        rows.append([f"`{row['figure']}`", row["way"], row["unit"], *(n.plain(float(row[p])) for p in ("p50", "p99", "p999", "max")),
+                     *([row["left_out"]] if counts else []), _window_goals(row), row["remark"]])
+    return n.table(["figure", "way", "unit", "p50", "p99", "p99.9", "max", *(["ticks left out"] if counts else []), "goal", "remark"], rows,
+                   right_from=9)
 
 
 def _dense_groups(results, group):

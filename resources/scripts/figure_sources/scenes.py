@@ -36,16 +36,29 @@ def checks(results):
     return n.table(["scene", "method", "figure", "median", "worst", "goal", "remark"], rows, right_from=9)
 
 
-@c.needs("tests/bench/results/verdicts.csv")
-def verdicts(results):
-    table = results.bench("verdicts")
-    rows = [[row["scene"], n.count(float(row["pairs"])), n.count(float(row["agree"])), n.plain(float(row["worst_distance_difference_m"])),
-             *(n.count(float(row[k])) for k in ("clear", "near", "touching", "clashes", "contained"))] for row in table.where()]
-    return n.table(["scene", "pairs", "agree", "largest difference of distance [m]", "clear", "near", "touching", "clashes", "contained"], rows)
-
-
 def _share(part, whole):
     return f"{n.count(float(part))} of {n.count(float(whole))}"
+
+
+@c.needs("tests/bench/results/verdicts.csv")
+def verdicts(results):
+    """Files of before have neither depths nor volumes."""
+    table = results.bench("verdicts")
+    is_full = "depths" in table.columns
+    rows = []
+    for row in table.where():
+        cells = [row["scene"], n.count(float(row["pairs"])), n.count(float(row["agree"])), n.plain(float(row["worst_distance_difference_m"])),
+                 *(n.count(float(row[k])) for k in ("clear", "near", "touching", "clashes", "contained"))]
+        if is_full:
+            cells += [*(_share(row[k], row["depths"]) for k in ("depths_free", "depths_least", "depths_beaten")),
+                      f"{_share(row['volumes_by_rays'], row['volumes'])} ({n.plain(100 * float(row['worst_by_rays']))} %)",
+                      f"{_share(row['volumes_by_booleans'], row['booleans'])} ({n.plain(float(row['worst_by_booleans']))})"]
+        rows.append(cells)
+    head = ["scene", "pairs", "agree", "largest difference of distance [m]", "clear", "near", "touching", "clashes", "contained"]
+    if is_full:
+        head += ["depths that free", "of which less does not", "beaten another way", "volumes by rays (largest difference)",
+                 "by Nef polyhedra (the same, relative)"]
+    return n.table(head, rows)
 
 
 def _looks(row):
@@ -85,10 +98,12 @@ def path_readings(results):
     limit = 2.0 * max(float(row["goal_s"]) for row in rows)
     slowest = max(rows, key=lambda row: float(row["verified_s"]))
     beyond = [row for row in rows if float(row["ratio"]) > 2.0]
-    said = "none takes longer" if not beyond else "it takes longer on " + ", ".join(
+    said = "all are" if not beyond else "all are but " + ", ".join(
         f"`{row['scene']}` ({n.plain(float(row['ratio']))} times {n.time(1e6 * float(row['certified_s']))})" for row in beyond)
-    return (f"Verified within twice that can be read in two ways. As twice 10 s, the goal in the table: the longest of {len(rows)} paths takes "
-            f"{n.time(1e6 * float(slowest['verified_s']))} of {n.time(1e6 * limit)}. As twice the time to certify the same path: {said}.")
+    met = float(slowest["verified_s"]) <= limit
+    return (f'"Verified within twice that" can mean two times. As twice 10 s, which the table goes by, all {len(rows)} paths '
+            f"{'are' if met else 'are not'} within it: the slowest takes {n.time(1e6 * float(slowest['verified_s']))}. As twice the time to "
+            f"certify the same path, {said}.")
 
 
 @c.needs("tests/bench/results/suggest.csv")
