@@ -156,10 +156,11 @@ def _window_goals(row):
               ("ticks left out", row.get("left_out"), row.get("goal_left_out"), "")]
     said = []
     for name, value, goal, unit in checks:
-        if not value or not goal or (name != "ticks left out" and float(goal) <= 0):
+        # No ticks left out is a goal; a time of 0 is none.
+        if not value or not goal or (unit and float(goal) <= 0):
             continue
         verdict = "met" if float(value) <= float(goal) else "**missed**"
-        said.append(f"{verdict}: {name} {n.plain(float(goal))} {unit}".rstrip())
+        said.append(f"{verdict}: {name} {n.plain(float(goal))} {unit}" if unit else f"{verdict}: {name} {n.count(float(goal))}")
     return "; ".join(said)
 
 
@@ -171,7 +172,7 @@ def window(results):
         rows.append([f"`{row['figure']}`", row["way"], row["unit"], *(n.plain(float(row[p])) for p in ("p50", "p99", "p999", "max")),
                      *([row["left_out"]] if counts else []), _window_goals(row), row["remark"]])
     return n.table(["figure", "way", "unit", "p50", "p99", "p99.9", "max", *(["ticks left out"] if counts else []), "goal", "remark"], rows,
-                   right_from=9)
+                   right_from=10)
 
 
 def _dense_groups(results, group):

@@ -39,12 +39,12 @@ Figure figureOf(std::string name, std::string way, std::string unit, const std::
 }
 
 std::string figureTableHeader() {
-  return fmt::format("{:<12}{:<34}{:<5}{:>7}{:>11}{:>11}{:>11}{:>11}  {:<22}{}\n", "figure", "way", "unit",
+  return fmt::format("{:<12}{:<34}{:<5}{:>7}{:>11}{:>11}{:>11}{:>11}  {:<22}  {}\n", "figure", "way", "unit",
                      "count", "p50", "p99", "p99.9", "max", "goal", "remark");
 }
 
 std::string figureTableLine(const Figure& f) {
-  return fmt::format("{:<12}{:<34}{:<5}{:>7}{:>11.3f}{:>11.3f}{:>11.3f}{:>11.3f}  {:<22}{}\n", f.name, f.way,
+  return fmt::format("{:<12}{:<34}{:<5}{:>7}{:>11.3f}{:>11.3f}{:>11.3f}{:>11.3f}  {:<22}  {}\n", f.name, f.way,
                      f.unit, f.count, f.p50, f.p99, f.p999, f.max, goalText(f), f.remark);
 }
 
