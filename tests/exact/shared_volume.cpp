@@ -68,7 +68,8 @@ double volumeOf(const Nef& nef) {
 /// Where a ray crosses a surface, and by how much the winding number rises there.
 struct Crossing {
   double height;
-  std::int8_t body, rise;
+  std::uint8_t body;
+  std::int8_t rise;
 };
 
 /// Rays along z, by cell.
@@ -80,7 +81,7 @@ class RayGrid {
         step_((box.upper - box.lower) / static_cast<double>(cells)),
         crossings_(cells * cells) {}
 
-  void add(std::int8_t body, const Corners& t) {
+  void add(std::uint8_t body, const Corners& t) {
     const double area = crossZ(t[1] - t[0], t[2] - t[0]);
     if (area == 0.0) return;
     const Box box = boxAround(t);
@@ -126,7 +127,7 @@ class RayGrid {
     for (const Crossing& c : ray) {
       if (winding[0] != 0 && winding[1] != 0) length += c.height - since;
       since = c.height;
-      winding.at(static_cast<std::size_t>(c.body)) += c.rise;
+      winding.at(c.body) += c.rise;
     }
     return length;
   }
@@ -168,8 +169,8 @@ double sharedVolumeByRays(const TriangleMesh& scene, const TriangleMesh& part,
   Box shared{glm::max(a.lower, b.lower), glm::min(a.upper, b.upper)};
   if (shared.lower.x >= shared.upper.x || shared.lower.y >= shared.upper.y) return 0.0;
   RayGrid grid(shared, cells);
-  for (std::int8_t body = 0; body < 2; ++body) {
-    const auto& vertices = placed[static_cast<std::size_t>(body)];
+  for (std::uint8_t body = 0; body < 2; ++body) {
+    const auto& vertices = placed.at(body);
     for (const Triangle& t : (body == 0 ? scene : part).triangles())
       grid.add(body, {vertices[t[0]], vertices[t[1]], vertices[t[2]]});
   }

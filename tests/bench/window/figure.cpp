@@ -44,8 +44,8 @@ std::string figureTableHeader() {
 }
 
 std::string figureTableLine(const Figure& f) {
-  return fmt::format("{:<12}{:<34}{:<5}{:>7}{:>11.3f}{:>11.3f}{:>11.3f}{:>11.3f}  {:<22}  {}\n", f.name, f.way,
-                     f.unit, f.count, f.p50, f.p99, f.p999, f.max, goalText(f), f.remark);
+  return fmt::format("{:<12}{:<34}{:<5}{:>7}{:>11.3f}{:>11.3f}{:>11.3f}{:>11.3f}  {:<22}  {}\n", f.name,
+                     f.way, f.unit, f.count, f.p50, f.p99, f.p999, f.max, goalText(f), f.remark);
 }
 
 std::string figureCsvHeader() {
