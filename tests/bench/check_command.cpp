@@ -29,7 +29,7 @@ constexpr CheckGoals kPartsGoals{5.0, 0.0, 5.0, 0}, kInstancesGoals{60.0, 4.0 * 
 constexpr double kReportGoal = 10.0;
 /// Poses of the path in a report.
 constexpr std::size_t kGoalReportPoses = 4000;
-/// Of the diagonal. For the instances it is what brings more than 50,000 pairs within.
+/// Shares of the diagonal. That of the instances brings more than 50,000 pairs within.
 constexpr double kPartsThreshold = 0.01, kInstancesThreshold = 0.0125;
 /// Triangles: 20 times the square of this and of the next number, by turns. Some 10,000 and some 1,000.
 constexpr std::uint32_t kPartsFrequency = 22, kInstancesFrequency = 7;

@@ -11,7 +11,7 @@ namespace nearfit::bench {
 struct PathRow {
   std::string scene;
   std::size_t poses = 0;
-  std::size_t triangles = 0;           ///< Of all parts that are looked at.
+  std::size_t triangles = 0;           ///< Sum over the parts that move and the others.
   std::size_t moving = 0, others = 0;  ///< Parts that move, and parts that they may not meet.
   double certified = 0.0;              ///< Time to prove the path, hierarchies not counted [s].
   double verified = 0.0;               ///< Time to prove its certificate anew [s].

@@ -27,9 +27,9 @@ PathProofCheck proveAndVerify(const Scene& scene, const AssemblyPath& path, doub
 struct PlaceLooks {
   std::size_t places = 0;
   std::size_t looks = 0;     ///< Places times pairs.
-  std::size_t tested = 0;    ///< By exact predicates on the triangles (WayVerdicts).
-  std::size_t measured = 0;  ///< By the gap between the triangles, at the place itself.
-  std::size_t boxed = 0;     ///< By boxes that are apart.
+  std::size_t tested = 0;    ///< Decided by exact predicates on the triangles (WayVerdicts).
+  std::size_t measured = 0;  ///< Decided by the gap between the triangles, at the place itself.
+  std::size_t boxed = 0;     ///< Decided by boxes that are apart.
   std::size_t meetings = 0;
   std::string firstMeeting = {};  ///< Names of a pair that meets.
 

@@ -47,7 +47,7 @@ std::vector<SuggestEntry> suggestEntries() {
           {"pipe in", test::pipeIn}};
 }
 
-/// Of the random places.
+/// Seed of the random places.
 constexpr std::uint64_t kPlaceSeed = 1;
 
 SuggestedPath searchAndCheck(const test::SuggestScene& made, const SuggestBenchOptions& options,

@@ -13,9 +13,9 @@ namespace nearfit::bench {
 /// One search: what it says of itself, and what the certifier, the verifier and exact predicates say of its path.
 struct SuggestedPath {
   bool isSaidFound = false;
-  double seconds = 0.0;  ///< Of the search, however it ended [s].
+  double seconds = 0.0;  ///< Time of the search, however it ended [s].
   PathSearchMethod method = PathSearchMethod::Straight;
-  PathProofCheck proof = {};  ///< Of a path that is said to be found, as is `looks`.
+  PathProofCheck proof = {};  ///< For a path that is said to be found, like `looks`.
   PlaceLooks looks = {};
 
   /// True if the path is certified, its certificate is verified, and no place on it meets anything.
@@ -37,7 +37,7 @@ struct SuggestRow {
   std::size_t tested = 0;                   ///< On all paths, each by exact predicates.
   std::size_t meetings = 0;                 ///< On all paths.
   std::array<std::size_t, 4> methods{};     ///< Paths by PathSearchMethod.
-  std::vector<double> seconds = {};         ///< By seed, however the search ended [s].
+  std::vector<double> seconds = {};         ///< Time of each seed, however the search ended [s].
 
   void add(const SuggestedPath& path);
   std::size_t seeds() const { return seconds.size(); }

@@ -94,7 +94,7 @@ double diagonalOf(const Scene& scene) {
   return all.diagonal();
 }
 
-/// What independent arithmetic says of a check.
+/// A check held against independent arithmetic.
 struct VerdictScene {
   test::VerdictComparison verdicts;
   test::ClashComparison clashes;

@@ -15,9 +15,9 @@
 namespace nearfit::test {
 namespace {
 
-/// By how much coordinates of double precision may be off, of the bodies' size.
+/// Error of coordinates of double precision, as a share of the bodies' size.
 constexpr double kPlaceRounding = 1e-11;
-/// Of the smaller body's box: a volume below is compared with this.
+/// Share of the smaller body's box: smaller volumes are compared with it.
 constexpr double kSmallVolume = 1e-4;
 
 /// Two parts that clash, in the frame of the second.

@@ -30,7 +30,7 @@ class ExactBodies {
   /// Whether one body, or a piece of it, is inside the other, where surfaces do not meet. Only meshes that run as often
   /// one way along each edge as the other enclose anything.
   bool isOneInside(const RigidTransform& sceneFromPart) const;
-  /// Whether they neither meet nor is one inside the other.
+  /// True if they do not meet and neither is inside the other.
   bool isFree(const RigidTransform& sceneFromPart) const;
   /// Whether a translation of that length frees bodies that meet: along the normals of some triangles that meet, or the
   /// axes of the scene's mesh.
@@ -50,7 +50,7 @@ struct VerdictComparison {
   std::vector<std::string> differences;  ///< A sentence for each pair that does not agree.
 };
 
-/// What independent arithmetic says of the depths and volumes of clashes.
+/// Depths and volumes of clashes held against independent arithmetic.
 struct ClashComparison {
   std::size_t clashes = 0;  ///< Clashes and contained parts.
   std::size_t depths = 0;   ///< Thereof those with a depth.
@@ -79,9 +79,9 @@ constexpr double kDepthTolerance = 1e-6, kBooleanTolerance = 1e-9, kRayTolerance
 
 /// Options of compareClashes().
 struct ClashComparisonOptions {
-  std::size_t cells = 600;                 ///< Of sharedVolumeByRays().
-  std::size_t maxBooleanTriangles = 2000;  ///< Of both bodies; booleans of more are left out.
-  std::size_t maxBooleans = 20;            ///< Of a check; the first in its order.
+  std::size_t cells = 600;                 ///< See sharedVolumeByRays().
+  std::size_t maxBooleanTriangles = 2000;  ///< Larger pairs get no boolean.
+  std::size_t maxBooleans = 20;            ///< Max in a check; the first in its order.
 };
 
 /// Holds depths and volumes of the clashes of a check against exact predicates, rays and another boolean. Rays on all

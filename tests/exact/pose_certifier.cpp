@@ -274,7 +274,7 @@ class PoseCertifier::Follower {
     return last_ = certifier_.doMeet(way_[i]);
   }
 
-  std::size_t tested = 0, measured = 0, boxed = 0;  ///< As in WayVerdicts.
+  std::size_t tested = 0, measured = 0, boxed = 0;  ///< See WayVerdicts.
 
  private:
   static constexpr std::size_t kAhead = 256, kPatience = 8;

@@ -112,7 +112,7 @@ class RayGrid {
     return box_.lower +
            glm::dvec3((static_cast<double>(x) + 0.5) * step_.x, (static_cast<double>(y) + 0.5) * step_.y, 0);
   }
-  /// Of the cells whose middles a box spans.
+  /// Range of the cells whose middles a box spans.
   std::array<std::size_t, 2> range(const Box& box, glm::length_t axis) const {
     const auto cellAt = [&](double place) {
       const double cell = std::ceil((place - box_.lower[axis]) / step_[axis] - 0.5);

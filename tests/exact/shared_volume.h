@@ -9,13 +9,13 @@
 /// Volume that two solids share, by ways that share nothing with the program's corefinement.
 namespace nearfit::test {
 
-/// By boolean operations on Nef polyhedra in exact arithmetic; the part's vertices are rounded where the pose puts them.
+/// Intersects Nef polyhedra in exact arithmetic; the part's vertices are rounded where the pose puts them.
 /// No value if a mesh does not bound a solid that they can be made of. Takes about a millisecond a triangle.
 /// Source: Hachenberger, Kettner and Mehlhorn 2007, in CGAL.
 std::optional<double> sharedVolumeByNef(const TriangleMesh& scene, const TriangleMesh& part,
                                         const RigidTransform& sceneFromPart);
 
-/// By parallel rays through a grid of cells, aslant to all axes: lengths that lie in both solids, times the cells' area.
+/// Sums the lengths of parallel rays, one for each cell of a grid aslant to all axes, that lie in both solids.
 /// Its error falls with the square of the cells' edge.
 /// @param cells  Along each side of the grid, which covers what the boxes of the two share.
 double sharedVolumeByRays(const TriangleMesh& scene, const TriangleMesh& part,

@@ -150,7 +150,7 @@ def skips(results):
 
 
 def _window_goals(row):
-    """What a row of window.csv says of its goals. Files of before have a goal for one column alone."""
+    """Goals of a row of window.csv and if they are met. Older files have a goal for one column only."""
     checks = [(row["goal_of"], row.get(row["goal_of"]), row["goal"], row["unit"]),
               ("p99.9", row["p999"], row.get("goal_p999"), row["unit"]),
               ("ticks left out", row.get("left_out"), row.get("goal_left_out"), "")]

@@ -42,7 +42,7 @@ def _share(part, whole):
 
 @c.needs("tests/bench/results/verdicts.csv")
 def verdicts(results):
-    """Files of before have neither depths nor volumes."""
+    """Older files have neither depths nor volumes."""
     table = results.bench("verdicts")
     is_full = "depths" in table.columns
     rows = []
@@ -70,7 +70,7 @@ def _looks(row):
 
 @c.needs("tests/bench/results/path.csv")
 def paths(results):
-    """Files of before have no times of processes, nor how the places were looked at."""
+    """Older files have no times of processes, nor how the places were looked at."""
     table = results.bench("path")
     is_full = "tested" in table.columns
     rows = []
@@ -108,7 +108,7 @@ def path_readings(results):
 
 @c.needs("tests/bench/results/suggest.csv")
 def suggestions(results):
-    """Files of before have the search's own word alone."""
+    """Older files have only the search's own word."""
     table = results.bench("suggest")
     is_full = "verified" in table.columns
     rows = []

@@ -21,7 +21,7 @@ struct Figure {
   double p50 = 0.0, p99 = 0.0, p999 = 0.0, max = 0.0;
   double goal = 0.0;      ///< At most so much; 0: none, it is there to compare with.
   std::string goalOf;     ///< The column that the goal is for.
-  double goalP999 = 0.0;  ///< Of p99.9 besides, at most so much; 0: none.
+  double goalP999 = 0.0;  ///< Max for p99.9; 0: none.
   std::optional<std::uint64_t>
       leftOut;  ///< Ticks of a servo left out, of all turns; no value: not one of a servo.
   std::optional<std::uint64_t> maxLeftOut;  ///< Goal for these; no value: none.

@@ -75,7 +75,7 @@ double processorSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// As late as without what runs beside, but for a factor, and no more ticks left out.
+/// Sets the goals: p99 and p99.9 of lateness within a factor of those without, and no more ticks left out.
 void setGoals(Figure& with, const Figure& without) {
   with.goal = kLatenessFactor * without.p99;
   with.goalOf = "p99";
