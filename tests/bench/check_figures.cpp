@@ -43,21 +43,29 @@ class CheckFigureList {
     figures_.push_back(checkFigureOf(scene_, runs.method, name, unit, samples));
     return figures_.back();
   }
-  void addCount(const CheckMethodRuns& runs, const char* name, std::size_t count) {
-    add(runs, name, "1", {static_cast<double>(count)}).runs = runs.whole.size();
+  CheckFigure& addCount(const CheckMethodRuns& runs, const char* name, std::size_t count) {
+    CheckFigure& figure = add(runs, name, "1", {static_cast<double>(count)});
+    figure.runs = runs.whole.size();
+    return figure;
   }
-  void addTimes(const CheckMethodRuns& runs, double goal) {
-    add(runs, "whole check", "s", runs.whole).goal = goal;
-    figures_.back().remark = cutRemark(runs);
+  void addTimes(const CheckMethodRuns& runs, double goal, bool isOfGoalSize = true) {
+    CheckFigure& whole = add(runs, "whole check", "s", runs.whole);
+    whole.goal = goal;
+    whole.isOfGoalSize = isOfGoalSize;
+    whole.remark = cutRemark(runs);
     add(runs, "thereof hierarchies", "s", runs.build);
     add(runs, "thereof pairs", "s", runs.pairs);
   }
   void addOwnFigures(const CheckMethodRuns& runs, const CheckGoals& goals) {
-    addTimes(runs, goals.seconds);
+    const bool isOfGoalSize = runs.near >= goals.nearPairs;
+    addTimes(runs, goals.seconds, isOfGoalSize);
     CheckFigure& memory = add(runs, "max resident memory", "MB", megabytesOf(runs.residentPeak));
     memory.goal = goals.bytes / kMegabyte;
+    memory.isOfGoalSize = isOfGoalSize;
     memory.remark = fmt::format("{:.0f} MB before", runs.residentBefore / kMegabyte);
-    addCount(runs, "near pairs", runs.near);
+    CheckFigure& near = addCount(runs, "near pairs", runs.near);
+    near.goal = static_cast<double>(goals.nearPairs);
+    near.isAtLeast = true;
     addCount(runs, "touching pairs", runs.touching);
     addCount(runs, "clashes", runs.clashes);
     addCount(runs, "contained parts", runs.contained);

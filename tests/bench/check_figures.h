@@ -13,6 +13,8 @@ struct CheckGoals {
   double seconds = 0.0;    ///< Of the whole check by "nearfit", at most.
   double bytes = 0.0;      ///< Max resident memory then.
   double peerRatio = 0.0;  ///< Times as long that a peer takes, at least.
+  /// Near pairs that the scene has to have, or no goal of its check is met.
+  std::size_t nearPairs = 0;
 };
 
 /// One figure of a method on a scene, or of a report.
@@ -25,10 +27,11 @@ struct CheckFigure {
   double worst = 0.0;  ///< The max, or the min of what is to be at least something.
   double goal = 0.0;   ///< 0: none is set.
   bool isAtLeast = false;
-  std::string remark;  ///< Without commas.
+  bool isOfGoalSize = true;  ///< False if the scene has less in it than the goal is for.
+  std::string remark;        ///< Without commas.
 
-  /// True if the median meets the goal.
-  bool isMet() const { return isAtLeast ? median >= goal : median <= goal; }
+  /// True if the scene is what the goal is for, and the median meets it.
+  bool isMet() const { return isOfGoalSize && (isAtLeast ? median >= goal : median <= goal); }
 };
 
 /// All figures of a scene. @param runs  Of runChecks(), of one turn or more.

@@ -205,6 +205,12 @@ TEST_F(CheckRun, FiguresStateTheMedianTheWorstAndIfGoalsAreMet) {
   EXPECT_FALSE(figureNamed({1e-9, 0.0, 0.0}, "nearfit", "whole check").isMet());
   EXPECT_FALSE(figureNamed({0.0, 1.0, 0.0}, "nearfit", "max resident memory").isMet());
 
+  // With fewer near pairs than the goals are for, none is met.
+  for (const char* name : {"whole check", "max resident memory", "near pairs"}) {
+    EXPECT_TRUE(figureNamed({1e9, 1e18, 0.0, runs[0].near}, "nearfit", name).isMet()) << name;
+    EXPECT_FALSE(figureNamed({1e9, 1e18, 0.0, runs[0].near + 1}, "nearfit", name).isMet()) << name;
+  }
+
   // It says that it takes three seconds.
   const CheckFigure ratio = figureNamed({0.0, 0.0, 1e-9}, "slow", "times nearfit");
   EXPECT_LE(ratio.worst, ratio.median);

@@ -27,6 +27,8 @@ constexpr double kClashShare = 0.9;
 /// Blocks with a square hole and pegs in them: radii of the corners and height of a peg, and the gap between neighbours
 /// [m]. A peg has (kHoleRadius - kPegRadius) / sqrt(2) = 0.035 on each side.
 constexpr double kHoleRadius = 1.0, kBlockRadius = 2.0, kPegRadius = 0.95, kPegHeight = 3.0, kFitGap = 0.06;
+/// From one to the next in a layer, and from layer to layer [m].
+constexpr double kFitPitch = std::numbers::sqrt2 * kBlockRadius + kFitGap, kFitRise = kPegHeight + kFitGap;
 /// By how much each is off its place [m, rad]: two that are turned and moved towards each other come nearer by less than
 /// 0.02, so that nothing meets; and no two pairs are alike.
 constexpr double kFitShift = 0.005, kFitTurn = 0.002;
@@ -48,6 +50,11 @@ double leastRadius(const TriangleMesh& mesh) {
 RigidTransform anyOrientation(std::mt19937_64& random) {
   const glm::dvec3 axis = randomDirection(random);
   return {glm::angleAxis(2.0 * std::numbers::pi * uniform(random), axis), glm::dvec3(0.0)};
+}
+
+/// Pegs in a row, and rows in a layer.
+std::size_t fittedEdge(const FittedPartsSize& size) {
+  return static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(size.pegs))));
 }
 
 /// At a place with its flat sides along the axes, but for a little.
@@ -160,14 +167,13 @@ ManyPartsScene fittedParts(const std::string& name, const FittedPartsSize& size)
   scene.name = name;
   scene.meshes = {test::subdivided(test::tubeMesh(kHoleRadius, kBlockRadius, 1.0, 4), size.fineness),
                   test::subdivided(test::cylinderMesh(kPegRadius, kPegHeight, 4), size.fineness)};
-  const auto edge = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(size.pegs))));
-  const double pitch = std::numbers::sqrt2 * kBlockRadius + kFitGap, rise = kPegHeight + kFitGap;
+  const std::size_t edge = fittedEdge(size);
   std::mt19937_64 random(size.seed);
   Aabb all;
   for (std::size_t i = 0; i < size.pegs; ++i) {
     const std::size_t row = i / edge % edge, layer = i / (edge * edge);
-    const glm::dvec3 cell(static_cast<double>(i % edge) * pitch, static_cast<double>(row) * pitch,
-                          static_cast<double>(layer) * rise);
+    const glm::dvec3 cell(static_cast<double>(i % edge) * kFitPitch, static_cast<double>(row) * kFitPitch,
+                          static_cast<double>(layer) * kFitRise);
     for (std::uint32_t mesh = 0; mesh < 2; ++mesh) {
       scene.parts.push_back({mesh, fittedPose(cell, random)});
       const Aabb box = placedBounds(scene.meshes[mesh], scene.parts.back().worldFromPart);
@@ -178,6 +184,17 @@ ManyPartsScene fittedParts(const std::string& name, const FittedPartsSize& size)
   scene.diagonal = all.diagonal();
   scene.threshold = size.thresholdFraction * scene.diagonal;
   return scene;
+}
+
+ChannelGrid channelsOf(const FittedPartsSize& size) {
+  const std::size_t edge = fittedEdge(size), inLayer = edge * edge;
+  const double block = kBlockRadius / std::numbers::sqrt2;
+  return {.first = {-block, 0.5 * kFitPitch, 0.5 * kFitRise},
+          .length = static_cast<double>(edge - 1) * kFitPitch + 2.0 * block,
+          .pitch = kFitPitch,
+          .rise = kFitRise,
+          .rows = edge - 1,
+          .layers = (size.pegs + inLayer - 1) / inLayer - 1};
 }
 
 ManyPartsScene manyPartsOf(const std::string& name, const Scene& scene, double thresholdFraction) {

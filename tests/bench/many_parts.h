@@ -56,6 +56,16 @@ struct FittedPartsSize {
   std::uint64_t seed = 1;           ///< Of how far each is off its place.
 };
 
+/// Straight channels along x between the pegs of fittedParts() and between its layers of blocks: their middle lines. In
+/// each there is room for a ball of radius 0.75.
+struct ChannelGrid {
+  glm::dvec3 first{0.0};  ///< Where the first channel begins [m].
+  double length = 0.0;
+  double pitch = 0.0, rise = 0.0;  ///< From one channel to the next, along y and along z [m].
+  std::size_t rows = 0, layers = 0;
+};
+ChannelGrid channelsOf(const FittedPartsSize& size);
+
 /// Square pegs in the holes of blocks, side by side and on each other with small gaps, none of which quite alike: flat
 /// walls that face each other, cut finely, as machine parts have them. Nothing meets.
 ManyPartsScene fittedParts(const std::string& name, const FittedPartsSize& size);

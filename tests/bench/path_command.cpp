@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,21 +14,19 @@
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/path/assembly_path.h"
-#include "core/path/certificate.h"
 #include "core/path/path_bodies.h"
 #include "core/path/path_certifier.h"
 #include "core/path/path_file.h"
-#include "core/path/path_verifier.h"
 #include "core/scene/part_geometry.h"
 #include "core/scene/scene_file.h"
-#include "tests/bench/bench_clock.h"
+#include "tests/bench/check_report.h"
 #include "tests/bench/commands.h"
 #include "tests/bench/machine.h"
+#include "tests/bench/path_processes.h"
 #include "tests/bench/path_row.h"
 #include "tests/bench/path_scenes.h"
+#include "tests/bench/proven_path.h"
 #include "tests/bench/selection.h"
-#include "tests/exact/pose_certifier.h"
-#include "tests/support/portable_random.h"
 
 namespace nearfit::bench {
 namespace {
@@ -37,6 +34,8 @@ namespace {
 /// Poses of generated paths, and seconds in which one of so many is to be certified.
 constexpr std::size_t kGoalPoses = 4000;
 constexpr double kCertifiedGoal = 10.0;
+/// Places times pairs of parts on one path: some ten seconds.
+constexpr std::size_t kMaxLooks = 100'000'000;
 
 struct PathBenchOptions {
   std::filesystem::path scene, path;
@@ -46,40 +45,11 @@ struct PathBenchOptions {
   std::optional<double> separation;
   std::size_t random = 1'000'000;
   std::uint64_t seed = 1;
+  std::vector<std::string> plain{"pipe"};
+  bool hasProcesses = true;
 };
 
-/// Random places on a path, in order: poses that follow each other nearer than bodies are apart cost little.
-std::vector<double> randomPlaces(const AssemblyPath& path, const PathBenchOptions& options) {
-  std::mt19937_64 engine(options.seed);
-  std::vector<double> places;
-  places.reserve(options.random);
-  for (std::size_t i = 0; i < options.random; ++i)
-    places.push_back(path.end() * test::uniform(engine));
-  std::ranges::sort(places);
-  return places;
-}
-
-/// Looks by exact predicates whether parts meet at random places; returns at how many they do.
-std::size_t meetingsAt(const std::vector<double>& places, const AssemblyPath& path,
-                       const PathBodies& bodies) {
-  std::size_t meetings = 0;
-  for (const PathPart& moving : bodies.moving) {
-    for (const Scene::PartPtr& other : bodies.others) {
-      std::vector<RigidTransform> poses;
-      poses.reserve(places.size());
-      for (const double place : places)
-        poses.push_back(otherFromPart(*other, poseAt(path, place), moving));
-      const std::vector<char> met =
-          test::PoseCertifier(other->geometry->mesh, moving.part->geometry->mesh).meetings(poses);
-      const auto count = static_cast<std::size_t>(std::ranges::count(met, 1));
-      if (count > 0) fmt::print("{} meets {} at {} random places\n", moving.part->name, other->name, count);
-      meetings += count;
-    }
-  }
-  return meetings;
-}
-
-std::size_t pathTriangles(const PathBodies& bodies) {
+std::size_t pathTriangles(const nearfit::PathBodies& bodies) {
   std::size_t triangles = 0;
   for (const PathPart& moving : bodies.moving)
     triangles += moving.part->geometry->mesh.triangles().size();
@@ -88,7 +58,7 @@ std::size_t pathTriangles(const PathBodies& bodies) {
   return triangles;
 }
 
-void buildPathHierarchies(const PathBodies& bodies) {
+void buildPathHierarchies(const nearfit::PathBodies& bodies) {
   std::vector<PartGeometryPtr> geometries;
   for (const PathPart& moving : bodies.moving)
     geometries.push_back(moving.part->geometry);
@@ -97,30 +67,38 @@ void buildPathHierarchies(const PathBodies& bodies) {
   prepareHierarchies(geometries);
 }
 
+/// Fewer than those asked for where many pairs of parts would each be looked at.
+std::size_t placesFor(const nearfit::PathBodies& bodies, std::size_t wanted) {
+  const std::size_t pairs = bodies.moving.size() * bodies.others.size();
+  return std::min(wanted, kMaxLooks / std::max<std::size_t>(pairs, 1));
+}
+
 /// Certifies, verifies, and looks at random places. Throws Error where it is not proven, or the proof is refused.
 PathRow measurePath(const PathBenchScene& made, const PathBenchOptions& options) {
-  const PathBodies bodies = pathBodies(made.scene, made.path);
+  const nearfit::PathBodies bodies = pathBodies(made.scene, made.path);
   buildPathHierarchies(bodies);
   const double separation =
       options.separation ? *options.separation : defaultSeparation(made.scene, made.path);
-  const double begin = secondsBy(BenchClock::Wall);
-  const PathProof proof = PathCertifier(made.scene, made.path, separation).prove(made.path);
+  const PathProofCheck proof = proveAndVerify(made.scene, made.path, separation);
+  if (!proof.isCertified || !proof.isVerified)
+    throw Error(made.name, proof.problem, "take a path that is free, or a smaller separation");
   PathRow row;
-  row.certified = secondsBy(BenchClock::Wall) - begin;
-  if (!proof.isFree())
-    throw Error(made.name, fmt::format("it is not proven free at {} s", proof.unproven->time),
-                "take a path that is, or a smaller separation");
-  const Certificate certificate = certificateOf(made.scene, made.path, proof, {});
-  const double start = secondsBy(BenchClock::Wall);
-  const Verification verification = verifyCertificate(certificate, made.scene, {});
-  row.verified = secondsBy(BenchClock::Wall) - start;
-  if (!verification.isProven())
-    throw Error(made.name, "its certificate is refused: " + verification.problem, "see why");
   row.scene = made.name;
   row.poses = made.path.poses.size();
   row.triangles = pathTriangles(bodies);
-  row.places = options.random;
-  row.meetings = meetingsAt(randomPlaces(made.path, options), made.path, bodies);
+  row.moving = bodies.moving.size();
+  row.others = bodies.others.size();
+  row.certified = proof.certifySeconds;
+  row.verified = proof.verifySeconds;
+  if (const std::filesystem::path cli = cliProgram(); options.hasProcesses && !cli.empty()) {
+    const PathProcessTimes times = timePathProcesses(cli, made.scene, made.path, separation);
+    row.certifyProcess = times.certify;
+    row.verifyProcess = times.verify;
+  }
+  const std::size_t places = placesFor(bodies, options.random);
+  row.looks = lookAtPlaces(made.path, bodies, places, options.seed);
+  if (std::ranges::find(options.plain, made.name) != options.plain.end())
+    row.plain = testPlaces(made.path, bodies, places, options.seed);
   if (row.poses == kGoalPoses) row.goal = kCertifiedGoal;
   return row;
 }
@@ -152,7 +130,9 @@ void runPathBench(const PathBenchOptions& options) {
     fmt::print("{}", pathTableLine(row));
     std::fflush(stdout);
     lines += pathCsvLine(row);
-    if (row.meetings > 0) meeting += fmt::format("{}{}", meeting.empty() ? "" : ", ", row.scene);
+    for (const PlaceLooks& looks : {row.looks, row.plain})
+      if (looks.meetings > 0) fmt::print("{}\n", looks.firstMeeting);
+    if (row.meetings() > 0) meeting += fmt::format("{}{}", meeting.empty() ? "" : ", ", row.scene);
   }
   if (!options.csv.empty())
     atomicWrite(options.csv,
@@ -172,10 +152,10 @@ void addPathCommand(CLI::App& program) {
       ->check(CLI::ExistingFile);
   command->add_option("path", options->path, "Path file of nearfit-cli path")->check(CLI::ExistingFile);
   command
-      ->add_option(
-          "--scenes", options->scenes,
-          "Generated paths, with commas between: peg, rocks, pipe, with --shared peghole, pump; all by "
-          "default")
+      ->add_option("--scenes", options->scenes,
+                   "Generated paths, with commas between: peg, rocks, pipe, among-200, group-among-200, "
+                   "suggested-peg, "
+                   "suggested-pipe, recorded-peg, with --shared peghole, pump; all by default")
       ->delimiter(',');
   command
       ->add_option("--shared", options->shared, "Folder of the shared models; without, generated paths alone")
@@ -184,8 +164,17 @@ void addPathCommand(CLI::App& program) {
       ->check(CLI::Range(std::size_t{2}, kMaxPathPoses))
       ->capture_default_str();
   command->add_option("--separation", options->separation, "Distance to keep [m]");
-  command->add_option("--random", options->random, "Number of random places on each path")
+  command
+      ->add_option("--random", options->random,
+                   "Number of random places on each path, or fewer where many pairs of parts are looked at")
       ->capture_default_str();
+  command
+      ->add_option(
+          "--plain", options->plain,
+          "Paths on which each place is tested once more by exact predicates alone, with commas between")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_flag("!--no-processes", options->hasProcesses, "Do not time nearfit-cli certify and verify");
   command->add_option("--seed", options->seed, "Of the random places")->capture_default_str();
   command->add_option("--csv", options->csv, "File for the table");
   command->callback([options] { runPathBench(*options); });

@@ -1,6 +1,8 @@
 #include "tests/bench/path_scenes.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -31,22 +33,70 @@ double leastGap(const PathBenchScene& made, double most) {
 }
 
 void expectFree(const PathBenchScene& made) {
-  EXPECT_EQ(made.path.poses.size(), kPoses);
   const double separation = defaultSeparation(made.scene, made.path);
   EXPECT_TRUE(PathCertifier(made.scene, made.path, separation).prove(made.path).isFree()) << made.name;
 }
 
-TEST(PathScenes, GeneratedPathsAreFreeAndComeNear) {
+PathBenchScene madeScene(const std::string& name) {
   const std::vector<PathSceneEntry> entries = generatedPathScenes(kPoses);
-  ASSERT_EQ(entries.size(), 3U);
+  const auto found = std::ranges::find(entries, name, &PathSceneEntry::name);
+  return found == entries.end() ? PathBenchScene{} : found->make();
+}
+
+/// How near the path comes to anything else.
+struct NearPath {
+  const char* name;
+  double gap;  ///< [m]
+};
+
+TEST(PathScenes, GeneratedPathsAreFreeAndComeNear) {
   // The play of the peg, what rocks keep, and what the hole leaves the pipe: each in part.
-  const std::vector<double> near{0.1e-3, 0.08, 2.6e-3};
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const PathBenchScene made = entries[i].make();
-    EXPECT_EQ(made.name, entries[i].name);
+  for (const NearPath& near : {NearPath{"peg", 0.1e-3}, NearPath{"rocks", 0.08}, NearPath{"pipe", 2.6e-3}}) {
+    const PathBenchScene made = madeScene(near.name);
+    EXPECT_EQ(made.name, near.name);
+    EXPECT_EQ(made.path.poses.size(), kPoses);
     expectFree(made);
-    EXPECT_LT(leastGap(made, 2.0 * near[i]), near[i]) << made.name;
+    EXPECT_LT(leastGap(made, 2.0 * near.gap), near.gap) << made.name;
   }
+}
+
+/// The number of parts to which the path comes nearer than the gap at its poses.
+std::size_t neighbours(const PathBenchScene& made, double gap) {
+  const PathBodies bodies = pathBodies(made.scene, made.path);
+  return static_cast<std::size_t>(std::ranges::count_if(bodies.others, [&](const Scene::PartPtr& other) {
+    return std::ranges::any_of(bodies.moving, [&](const PathPart& moving) {
+      const test::PoseCertifier certifier(other->geometry->mesh, moving.part->geometry->mesh);
+      return std::ranges::any_of(made.path.poses, [&](const PathPose& pose) {
+        return certifier.surfacesApart(otherFromPart(*other, pose.worldFromLead, moving), gap) < gap;
+      });
+    });
+  }));
+}
+
+TEST(PathScenes, AScanPassesNearMostOfTwoHundredParts) {
+  const PathBenchScene made = madeScene("among-200");
+  const PathBodies bodies = pathBodies(made.scene, made.path);
+  EXPECT_EQ(bodies.moving.size(), 1U);
+  EXPECT_EQ(bodies.others.size(), 200U);
+  EXPECT_EQ(made.path.poses.size(), kPoses);
+  expectFree(made);
+  constexpr double kBesideChannel = 0.6;
+  EXPECT_GT(neighbours(made, kBesideChannel), 150U);
+}
+
+TEST(PathScenes, AGroupPassesTheSameWay) {
+  const PathBenchScene made = madeScene("group-among-200");
+  const PathBodies bodies = pathBodies(made.scene, made.path);
+  EXPECT_EQ(bodies.moving.size(), 3U);
+  EXPECT_EQ(bodies.others.size(), 200U);
+  expectFree(made);
+}
+
+TEST(PathScenes, ARecordedPathKeepsFewerPosesAndTouches) {
+  const PathBenchScene made = madeScene("recorded-peg");
+  EXPECT_GT(made.path.poses.size(), 2U);
+  EXPECT_LT(made.path.poses.size(), kPoses);
+  expectFree(made);
 }
 
 TEST(PathScenes, PathsOfSharedModelsAreFree) {

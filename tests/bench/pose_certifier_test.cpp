@@ -126,6 +126,26 @@ TEST(PoseCertifier, AlongAWayItSaysWhatItSaysOfEachPose) {
   EXPECT_LT(met, 460);
 }
 
+TEST(PoseCertifier, CountsThePosesThatItLooksAtInEachWay) {
+  const PoseCertifier boxes(boxMesh({2, 2, 2}), boxMesh({1, 1, 1}));
+  // The boxes are apart at the first, the gap is less than the second's motion, the last two meet.
+  const std::vector<RigidTransform> way{shift(3.0, 0, 0), shift(2.5, 0, 0), shift(1.2, 0, 0),
+                                        shift(1.1, 0, 0)};
+  const WayVerdicts far = boxes.along(way);
+  EXPECT_EQ(far.meetings, (std::vector<char>{0, 0, 1, 1}));
+  EXPECT_EQ(far.boxed, 1U);
+  EXPECT_EQ(far.tested, 2U);
+  // A ball in a corner of its box is beside another one whose box it overlaps: triangles tell, and the pose that follows is
+  // argued.
+  const PoseCertifier balls(icosphereMesh(1.0, 2), icosphereMesh(1.0, 2));
+  const WayVerdicts near =
+      balls.along(std::vector{shift(1.5, 1.5, 0), shift(1.501, 1.5, 0), shift(1.502, 1.5, 0)});
+  EXPECT_EQ(near.meetings, (std::vector<char>{0, 0, 0}));
+  EXPECT_EQ(near.boxed, 0U);
+  EXPECT_EQ(near.measured, 1U);
+  EXPECT_EQ(near.tested, 0U);
+}
+
 TEST(PoseCertifier, AWayThroughAThinWallOrIntoASolidIsSeen) {
   const PoseCertifier boxes(boxMesh({2, 2, 2}), boxMesh({1, 1, 1}));
   // Two poses on either side of the wall, or one outside and one inside, are farther from each other than

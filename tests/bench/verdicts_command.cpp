@@ -43,6 +43,7 @@ struct VerdictOptions {
   fs::path shared, csv;
   std::vector<std::string> scenes{"all"};
   std::size_t rounds = 8;
+  test::ClashComparisonOptions clashes;
 };
 
 struct VerdictSceneEntry {
@@ -93,12 +94,16 @@ double diagonalOf(const Scene& scene) {
   return all.diagonal();
 }
 
-/// The verdicts alone: measures of clashes are not compared.
-test::VerdictComparison compareScene(const Scene& scene, double threshold) {
-  SceneCheckRequest request = sceneCheckRequest(scene, threshold);
-  request.hasDepths = false;
-  request.maxVolumeTriangles = 0;
-  return test::compareVerdicts(request, checkScene(request));
+/// A check held against independent arithmetic.
+struct VerdictScene {
+  test::VerdictComparison verdicts;
+  test::ClashComparison clashes;
+};
+
+VerdictScene compareScene(const Scene& scene, double threshold, const VerdictOptions& options) {
+  const SceneCheckRequest request = sceneCheckRequest(scene, threshold);
+  const SceneCheck check = checkScene(request);
+  return {test::compareVerdicts(request, check), test::compareClashes(request, check, options.clashes)};
 }
 
 void addComparison(const test::VerdictComparison& one, test::VerdictComparison& all) {
@@ -113,9 +118,26 @@ void addComparison(const test::VerdictComparison& one, test::VerdictComparison& 
   all.differences.insert(all.differences.end(), one.differences.begin(), one.differences.end());
 }
 
-std::string verdictLine(const std::string& scene, const test::VerdictComparison& c) {
-  return fmt::format("{},{},{},{:.3g},{},{},{},{},{}\n", scene, c.pairs, c.agree, c.worstDistance, c.clear,
-                     c.near, c.touching, c.clashes, c.contained);
+void addScene(const VerdictScene& one, VerdictScene& all) {
+  addComparison(one.verdicts, all.verdicts);
+  all.clashes.add(one.clashes);
+}
+
+std::string verdictHeader() {
+  return "scene,pairs,agree,worst_distance_difference_m,clear,near,touching,clashes,contained,depths,depths_"
+         "free,"
+         "depths_least,depths_beaten,depths_exact,depths_exact_least,volumes,volumes_by_rays,worst_by_rays,"
+         "booleans,"
+         "volumes_by_booleans,worst_by_booleans\n";
+}
+
+std::string verdictLine(const std::string& scene, const VerdictScene& s) {
+  const test::VerdictComparison& v = s.verdicts;
+  const test::ClashComparison& c = s.clashes;
+  return fmt::format("{},{},{},{:.3g},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.3g},{},{},{:.3g}\n", scene,
+                     v.pairs, v.agree, v.worstDistance, v.clear, v.near, v.touching, v.clashes, v.contained,
+                     c.depths, c.freed, c.least, c.beaten, c.exactDepths, c.exactLeast, c.volumes,
+                     c.raysAgree, c.worstRays, c.booleans, c.booleansAgree, c.worstBoolean);
 }
 
 void runVerdicts(const VerdictOptions& options) {
@@ -123,24 +145,26 @@ void runVerdicts(const VerdictOptions& options) {
       machineComment(options.csv) +
       fmt::format("# each scene as drawn, and {} times with its parts moved; threshold {} of the diagonal\n",
                   options.rounds, kVerdictThreshold);
-  const std::string header =
-      "scene,pairs,agree,worst_distance_difference_m,clear,near,touching,clashes,contained\n";
+  const std::string header = verdictHeader();
   fmt::print("{}{}", machine, header);
   std::string lines, problem;
   for (const VerdictSceneEntry& entry : chosen(verdictScenes(options.shared), options.scenes, "--scenes")) {
     const Scene drawn = entry.make();
     const double threshold = kVerdictThreshold * diagonalOf(drawn);
-    test::VerdictComparison asDrawn = compareScene(drawn, threshold), moved;
+    VerdictScene asDrawn = compareScene(drawn, threshold, options), moved;
     for (std::size_t i = 0; i < options.rounds; ++i) {
       const Scene spread = test::spreadScene(drawn, kSpreads[i % kSpreads.size()], i + 1);
-      addComparison(compareScene(spread, threshold), moved);
+      addScene(compareScene(spread, threshold, options), moved);
     }
     const std::string line =
         verdictLine(entry.name, asDrawn) + verdictLine(fmt::format("{} moved", entry.name), moved);
     fmt::print("{}", line);
     lines += line;
-    addComparison(moved, asDrawn);
-    for (const std::string& difference : asDrawn.differences) {
+    addScene(moved, asDrawn);
+    std::vector<std::string> differences = asDrawn.verdicts.differences;
+    differences.insert(differences.end(), asDrawn.clashes.differences.begin(),
+                       asDrawn.clashes.differences.end());
+    for (const std::string& difference : differences) {
       fmt::print("# {}: {}\n", entry.name, difference);
       if (problem.empty()) problem = entry.name + ": " + difference;
     }
@@ -155,10 +179,13 @@ void runVerdicts(const VerdictOptions& options) {
 
 void addVerdictsCommand(CLI::App& program) {
   const auto options = std::make_shared<VerdictOptions>();
-  CLI::App* command = program.add_subcommand(
-      "verdicts",
-      "Holds the verdict and the least distance that a check of a scene says of each pair of parts against "
-      "exact arithmetic that shares no code with it. Exit code 1 on any difference.");
+  CLI::App* command =
+      program.add_subcommand("verdicts",
+                             "Holds what a check of a scene says of each pair of parts against exact "
+                             "arithmetic that shares no code with "
+                             "it: verdict, least distance, depth (it frees the pair, and less does not in "
+                             "the same direction) and volume (by "
+                             "rays and, of small parts, by Nef polyhedra). Exit code 1 on any difference.");
   command->add_option("--shared", options->shared, "Folder of the shared models")
       ->check(CLI::ExistingDirectory)
       ->required();
@@ -167,6 +194,17 @@ void addVerdictsCommand(CLI::App& program) {
                    "With commas between: vise, box-assembly, pump; all by default")
       ->delimiter(',');
   command->add_option("--rounds", options->rounds, "Times that the parts of each scene are moved")
+      ->capture_default_str();
+  command
+      ->add_option("--boolean-triangles", options->clashes.maxBooleanTriangles,
+                   "Volumes of two parts with more triangles are not computed by Nef polyhedra")
+      ->capture_default_str();
+  command
+      ->add_option("--booleans", options->clashes.maxBooleans,
+                   "Volumes of a check that are computed by Nef polyhedra, at most")
+      ->capture_default_str();
+  command->add_option("--cells", options->clashes.cells, "Rays along each side of what two boxes share")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--csv", options->csv, "File for the table");
   command->callback([options] { runVerdicts(*options); });

@@ -256,12 +256,16 @@ bool ExactBodies::isOneInside(const RigidTransform& sceneFromPart) const {
   return bodies_->isOneInside(sceneFromPart);
 }
 
+bool ExactBodies::isFree(const RigidTransform& sceneFromPart) const {
+  return !bodies_->doSurfacesMeet(sceneFromPart) && !bodies_->isOneInside(sceneFromPart);
+}
+
 bool ExactBodies::isFreedBy(double length, const RigidTransform& sceneFromPart) const {
   for (const glm::dvec3& direction : bodies_->triedDirections(sceneFromPart)) {
     for (const double way : {length, -length}) {
       RigidTransform moved = sceneFromPart;
       moved.translation += way * direction;
-      if (!bodies_->doSurfacesMeet(moved) && !bodies_->isOneInside(moved)) return true;
+      if (isFree(moved)) return true;
     }
   }
   return false;

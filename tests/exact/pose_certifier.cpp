@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -149,19 +150,39 @@ struct PoseCertifier::Bodies {
     return most;
   }
 
+  /// The corners of the box around a part that has triangles, where the pose puts them.
+  std::array<glm::dvec3, 8> placedCorners(const RigidTransform& pose) const {
+    const Box& box = part.node(0).box;
+    std::array<glm::dvec3, 8> out;
+    for (unsigned corner = 0; corner < out.size(); ++corner) {
+      out[corner] =
+          pose.applyToPoint({(corner & 1U ? box.upper : box.lower).x, (corner & 2U ? box.upper : box.lower).y,
+                             (corner & 4U ? box.upper : box.lower).z});
+    }
+    return out;
+  }
+
   /// No vertex is farther from where the other pose has it: how far one is moved is convex over space.
   double motion(const RigidTransform& from, const RigidTransform& to) const {
     if (part.isEmpty()) return 0.0;
-    const Box& box = part.node(0).box;
-    double most = 0.0, size = extent(box);
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      const glm::dvec3 p((corner & 1U ? box.upper : box.lower).x, (corner & 2U ? box.upper : box.lower).y,
-                         (corner & 4U ? box.upper : box.lower).z);
-      const glm::dvec3 before = from.applyToPoint(p), after = to.applyToPoint(p);
-      most = std::max(most, glm::distance(before, after));
-      size = std::max({size, largest(before), largest(after)});
+    const std::array<glm::dvec3, 8> before = placedCorners(from), after = placedCorners(to);
+    double most = 0.0, size = extent(part.node(0).box);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      most = std::max(most, glm::distance(before[i], after[i]));
+      size = std::max({size, largest(before[i]), largest(after[i])});
     }
     return most + kPlacementRounding * size;
+  }
+
+  /// No more than the distance of the surfaces: that of the boxes around the scene and the placed corners [m]. Bodies with
+  /// disjoint boxes neither meet nor contain each other.
+  double boxesApart(const RigidTransform& pose) const {
+    if (scene.isEmpty() || part.isEmpty()) return std::numeric_limits<double>::infinity();
+    Box placed;
+    for (const glm::dvec3& p : placedCorners(pose))
+      placed.add(p);
+    const double size = std::max({extent(scene.node(0).box), extent(part.node(0).box), extent(placed)});
+    return std::max(0.0, scene.node(0).box.distance(placed) - kPlacementRounding * size);
   }
 
   bool isOneInside(const RigidTransform& pose) const {
@@ -232,17 +253,28 @@ class PoseCertifier::Follower {
     // other: neither do they meet now, nor has one come into the other.
     if (isApart_ && motion(anchor_, i) < apart_) return last_ = false;
     isApart_ = false;
+    if (const double apart = certifier_.bodies_->boxesApart(way_[i]); apart > 0.0) {
+      ++boxed;
+      anchor_ = i;
+      apart_ = apart;
+      isApart_ = true;
+      return last_ = false;
+    }
     if (isWorthMeasuring(i)) {
       anchor_ = i;
       apart_ = found_ = certifier_.surfacesApart(way_[i], farthestAhead(i));
       if (apart_ > 0.0) {
+        ++measured;
         last_ = certifier_.bodies_->isOneInside(way_[i]);
         isApart_ = !last_;
         return last_;
       }
     }
+    ++tested;
     return last_ = certifier_.doMeet(way_[i]);
   }
+
+  std::size_t tested = 0, measured = 0, boxed = 0;  ///< See WayVerdicts.
 
  private:
   static constexpr std::size_t kAhead = 256, kPatience = 8;
@@ -275,16 +307,28 @@ class PoseCertifier::Follower {
   bool last_ = false;
 };
 
-std::vector<char> PoseCertifier::meetings(std::span<const RigidTransform> sceneFromPart) const {
+WayVerdicts PoseCertifier::along(std::span<const RigidTransform> sceneFromPart) const {
   constexpr std::size_t kBlock = 256;
-  std::vector<char> out(sceneFromPart.size(), 0);
-  parallelFor((out.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
-    const std::size_t first = block * kBlock, count = std::min(kBlock, out.size() - first);
+  WayVerdicts out;
+  out.meetings.assign(sceneFromPart.size(), 0);
+  std::atomic<std::size_t> tested = 0, measured = 0, boxed = 0;
+  parallelFor((out.meetings.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+    const std::size_t first = block * kBlock, count = std::min(kBlock, out.meetings.size() - first);
     Follower follower(*this, sceneFromPart.subspan(first, count));
     for (std::size_t i = 0; i < count; ++i)
-      out[first + i] = follower.doMeet(i) ? 1 : 0;
+      out.meetings[first + i] = follower.doMeet(i) ? 1 : 0;
+    tested += follower.tested;
+    measured += follower.measured;
+    boxed += follower.boxed;
   });
+  out.tested = tested;
+  out.measured = measured;
+  out.boxed = boxed;
   return out;
+}
+
+std::vector<char> PoseCertifier::meetings(std::span<const RigidTransform> sceneFromPart) const {
+  return along(sceneFromPart).meetings;
 }
 
 }  // namespace nearfit::test

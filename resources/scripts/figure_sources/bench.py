@@ -236,19 +236,31 @@ def skips(results):
     return n.table(["not computed", "where", "with the skip, p50", "without", "times, p50", "p99"], rows, right_from=2)
 
 
+def _window_goals(row):
+    """Goals of a row of window.csv and if they are met. Older files have a goal for one column only."""
+    checks = [(row["goal_of"], row.get(row["goal_of"]), row["goal"], row["unit"]),
+              ("p99.9", row["p999"], row.get("goal_p999"), row["unit"]),
+              ("ticks left out", row.get("left_out"), row.get("goal_left_out"), "")]
+    said = []
+    for name, value, goal, unit in checks:
+        # No ticks left out is a goal; a time of 0 is none.
+        if not value or not goal or (unit and float(goal) <= 0):
+            continue
+        verdict = "met" if float(value) <= float(goal) else "**missed**"
+        said.append(f"{verdict}: {n.beside_goal(value, goal, unit)}{name} {n.plain(float(goal))} {unit}" if unit else
+                    f"{verdict}: {name} {n.count(float(goal))}")
+    return "; ".join(said)
+
+
 def window(results):
     table = results.bench("window")
+    counts = "left_out" in table.columns
     rows = []
     for row in table.where():
-        unit = row["unit"]
-        said = ""
-        if row["goal_of"]:
-            is_met = float(row[row["goal_of"]]) <= float(row["goal"])
-            more = n.beside_goal(row[row["goal_of"]], row["goal"], unit)
-            said = f"{'met' if is_met else '**missed**'}: {more}{row['goal_of']} {n.plain(float(row['goal']))} {unit}"
-        rows.append([f"`{row['figure']}`", row["way"], unit, *(n.plain(float(row[p])) for p in ("p50", "p99", "max")), said,
-                     row["remark"]])
-    return n.table(["figure", "way", "unit", "p50", "p99", "max", "goal", "remark"], rows, right_from=9)
+        rows.append([f"`{row['figure']}`", row["way"], row["unit"], *(n.plain(float(row[p])) for p in ("p50", "p99", "p999", "max")),
+                     *([row["left_out"]] if counts else []), _window_goals(row), row["remark"]])
+    return n.table(["figure", "way", "unit", "p50", "p99", "p99.9", "max", *(["ticks left out"] if counts else []), "goal", "remark"], rows,
+                   right_from=10)
 
 
 def _dense_groups(results, group):

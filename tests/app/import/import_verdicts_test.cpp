@@ -25,13 +25,19 @@ LoadedDocument documentOf(const std::filesystem::path& file) {
 }
 
 void expectAgreement(const Scene& scene, double threshold, std::size_t pairs) {
-  SceneCheckRequest request = sceneCheckRequest(scene, threshold);
-  request.hasDepths = false;
-  request.maxVolumeTriangles = 0;
-  const test::VerdictComparison comparison = test::compareVerdicts(request, checkScene(request));
+  const SceneCheckRequest request = sceneCheckRequest(scene, threshold);
+  const SceneCheck check = checkScene(request);
+  const test::VerdictComparison comparison = test::compareVerdicts(request, check);
   EXPECT_EQ(comparison.pairs, pairs);
   EXPECT_EQ(comparison.agree, pairs);
   for (const std::string& difference : comparison.differences)
+    ADD_FAILURE() << difference;
+  const test::ClashComparison clashes =
+      test::compareClashes(request, check, {.maxBooleanTriangles = 1000, .maxBooleans = 2});
+  EXPECT_EQ(clashes.freed, clashes.depths);
+  EXPECT_EQ(clashes.least, clashes.depths);
+  EXPECT_EQ(clashes.booleansAgree, clashes.booleans);
+  for (const std::string& difference : clashes.differences)
     ADD_FAILURE() << difference;
 }
 

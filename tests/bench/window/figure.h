@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,9 +19,13 @@ struct Figure {
   std::string name, way, unit;  ///< What; how, such as with or without something; of all numbers.
   std::size_t count = 0;
   double p50 = 0.0, p99 = 0.0, p999 = 0.0, max = 0.0;
-  double goal = 0.0;   ///< At most so much; 0: none, it is there to compare with.
-  std::string goalOf;  ///< The column that the goal is for.
-  std::string remark;  ///< Without commas.
+  double goal = 0.0;      ///< At most so much; 0: none, it is there to compare with.
+  std::string goalOf;     ///< The column that the goal is for.
+  double goalP999 = 0.0;  ///< Max for p99.9; 0: none.
+  std::optional<std::uint64_t>
+      leftOut;  ///< Ticks of a servo left out, of all turns; no value: not one of a servo.
+  std::optional<std::uint64_t> maxLeftOut;  ///< Goal for these; no value: none.
+  std::string remark;                       ///< Without commas.
 };
 
 /// @param samples  In the figure's unit.
