@@ -24,9 +24,9 @@ constexpr double kMinSlack = 0.5, kMaxSlack = 6.0;
 constexpr double kTicksAhead = 1.5, kStepsAhead = 4.0;
 /// Where pairs are thousands, they are gathered for the way of so many steps like the one that is tried, as far as the
 /// lists cover it: few more are near along the way, and most near one end are near the other. They serve this far aside
-/// of it, in reaches.
-constexpr std::array kStepsOfStretch{4.0, 2.0, 1.0};
-constexpr double kAside = 0.25;
+/// of it, in reaches: a nut strays little from its thread, and room aside costs pairs all along the way.
+constexpr std::array kStepsOfStretch{8.0, 4.0, 2.0, 1.0};
+constexpr double kAside = 0.07;
 /// Limits the room for turning: beyond it, nearly every pair of features is a candidate [rad].
 constexpr double kMaxTurn = 0.1;
 /// Max pairs of triangles held: a pass over all of them takes a twentieth of a tick's work on surfaces.
@@ -42,14 +42,14 @@ struct Level {
   double mostSlack;        ///< Max room for motion [reaches]; kMinSlack for some steps, 0 for one pose alone.
   std::size_t mostListed;  ///< Max pairs worth taking from lists.
 };
-/// Where there are more pairs than kManyPairs / 2, it looks no farther than a part in contact needs for steps of full
-/// length. If there are too many even without room, the reach is shortened further: steps are shorter and the margin may
-/// shrink, but a part that is close to more than a tick can look at still moves.
+/// Where there are more pairs than kManyPairs / 2, it looks no farther than a part in contact needs to keep its margin
+/// (kSight in proxy.cpp): there are a sixth fewer than within 1.75 margins, for steps as long. If there are too many even
+/// without room, the reach is shortened further: steps are shorter and the margin may shrink, but a part that is close to
+/// more than a tick can look at still moves.
 constexpr std::array kLevels{Level{kContactReach, kMaxSlack, ContactFinder::kManyPairs / 2},
                              Level{kContactReach, kMinSlack, ContactFinder::kManyPairs / 2},
-                             Level{1.75, 1.0, ContactFinder::kMaxPairs},
-                             Level{1.75, kMinSlack, ContactFinder::kMaxPairs},
-                             Level{1.75, 0.0, ContactFinder::kMaxPairs},
+                             Level{1.5, 1.0, ContactFinder::kMaxPairs},
+                             Level{1.5, kMinSlack, ContactFinder::kMaxPairs},
                              Level{1.5, 0.0, ContactFinder::kMaxPairs},
                              Level{1.1, 0.0, ContactFinder::kMaxPairs},
                              Level{0.75, 0.0, ContactFinder::kMaxPairs},
@@ -78,10 +78,9 @@ constexpr double kClearOnWay = 0.1;
 /// With fewer pairs than this, testing all of them costs less than bounding them.
 constexpr std::size_t kFewPairs = 1024;
 /// Size of the cells that contacts of thousands are grouped by, as a share of the part's least gyration.
-constexpr double kCellOfGyration = 0.12;
-/// Where pairs are thousands, contacts beyond this share of the reach are left out. At 1.7 margins a part is free, and a
-/// step seldom meets them.
-constexpr double kNeeded = 1.7 / kContactReach;
+constexpr double kCellOfGyration = 0.2;
+/// Where pairs are thousands, contacts beyond this share of the reach are left out: a step seldom meets them.
+constexpr double kNeeded = 1.45 / kContactReach;
 /// There, a look finds all contacts within this share of the reach, those that may be nearer than the margin. Of what is
 /// farther it finds what was nearest before, which is nearly all; the rest it finds once it comes near.
 constexpr double kSure = 0.98 / kContactReach;

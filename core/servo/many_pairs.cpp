@@ -17,15 +17,15 @@ namespace {
 constexpr double kBeyondAll = std::numeric_limits<double>::infinity();
 /// Slots for pairs separated by the scene, and as many for those separated by the part.
 constexpr std::size_t kSlotsOfKind = ManyPairs::kMax;
-constexpr std::size_t kTableSize = 4 * ManyPairs::kMax, kGroupTableSize = 2 * ManyPairs::kMax;
+constexpr std::size_t kTableSize = 2 * ManyPairs::kMax, kGroupTableSize = 2 * ManyPairs::kMax;
 /// Groups are found anew when there are so many, most of them of pairs that are no longer held.
 constexpr std::size_t kManyGroups = ManyPairs::kMax / 2;
 /// Places looked at for a pair before the hash table: pairs come in the order of the last time, but for some.
 constexpr std::size_t kPlacesAhead = 4;
-/// Pairs ahead whose place in the hash table, and then whose slot, is fetched: both are larger than the nearest caches.
-constexpr std::size_t kFetchedPlaces = 16, kFetchedSlots = 8;
+/// Pairs ahead whose entry in the hash table is fetched: it is larger than the nearest caches.
+constexpr std::size_t kFetchedAhead = 16;
 /// Cell size of directions; their length is 1.
-constexpr double kDirectionCell = 0.12;
+constexpr double kDirectionCell = 0.2;
 /// A separation found so large a turn ago is found anew: the part's directions have left their cells [rad].
 constexpr double kMaxTurnOfKey = 0.5 * kDirectionCell;
 /// Makes cells' numbers positive, so that cutting off the fraction rounds down.
@@ -33,6 +33,9 @@ constexpr double kCellsBelowZero = 512.0;
 /// A pair that is nearer than the nearest of its group by no more than this share of what is needed is not tested: the
 /// part may come so much nearer than its margin, and of pairs that lie along each other nearly all would be tested.
 constexpr double kLeastGain = 0.005;
+/// Looks after which a pair without a contact is separated anew where its features are so close that each look tests it,
+/// whatever its separation.
+constexpr std::uint32_t kLooksOfClose = 16;
 /// Work of a test, of finding a separation after it, and of a passage; and pairs bounded in a unit of work.
 constexpr std::uint64_t kWorkOfExactTest = 2, kWorkOfSeparation = 2, kWorkOfOnePassage = 1;
 constexpr std::uint64_t kBoundedOfWork = 16, kBoundedOnWayOfWork = 8;
@@ -51,7 +54,8 @@ ManyPairs::ManyPairs()
     : slots_(2 * kSlotsOfKind),
       separations_(2 * kSlotsOfKind / kLanes),
       held_(separations_.size()),
-      table_(kTableSize, kNone),
+      table_(kTableSize),
+      places_(2 * kSlotsOfKind),
       groups_(kMax + 1),
       groupTable_(kGroupTableSize, kNone),
       kernel_(separationKernel(defaultSimdLevel())) {
@@ -65,7 +69,7 @@ ManyPairs::ManyPairs()
 }
 
 void ManyPairs::forget() noexcept {
-  std::fill(table_.begin(), table_.end(), kNone);
+  std::fill(table_.begin(), table_.end(), Entry{});
   std::fill(groupTable_.begin(), groupTable_.end(), kNone);
   std::fill(held_.begin(), held_.end(), std::uint8_t{0});
   used_ = {};
@@ -80,19 +84,15 @@ void ManyPairs::forget() noexcept {
 }
 
 void ManyPairs::fetchAhead(std::span<const LeafPair> pairs, std::size_t at) const noexcept {
-  if (at + kFetchedPlaces < pairs.size())
-    __builtin_prefetch(&table_[hashOf(pairs[at + kFetchedPlaces]) % kTableSize]);
-  if (at + kFetchedSlots >= pairs.size()) return;
-  const std::uint32_t slot = table_[hashOf(pairs[at + kFetchedSlots]) % kTableSize];
-  if (slot != kNone) __builtin_prefetch(&slots_[slot]);
+  if (at + kFetchedAhead < pairs.size())
+    __builtin_prefetch(&table_[hashOf(pairs[at + kFetchedAhead]) % kTableSize]);
 }
 
 std::uint32_t ManyPairs::find(const LeafPair& pair) const noexcept {
   for (std::size_t at = hashOf(pair) % kTableSize;; at = (at + 1) % kTableSize) {
-    const std::uint32_t slot = table_[at];
-    if (slot == kNone) return kNone;
-    const LeafPair& other = slots_[slot].pair;
-    if (other.scene == pair.scene && other.part == pair.part) return slot;
+    const Entry& entry = table_[at];
+    if (entry.slot == kNone || (entry.pair.scene == pair.scene && entry.pair.part == pair.part))
+      return entry.slot;
   }
 }
 
@@ -105,7 +105,7 @@ std::uint32_t ManyPairs::findNear(const LeafPair& pair, std::size_t& next) const
     return placed.slot;
   }
   const std::uint32_t slot = find(pair);
-  if (slot != kNone) next = slots_[slot].place + std::size_t{1};
+  if (slot != kNone) next = places_[slot] + std::size_t{1};
   return slot;
 }
 
@@ -116,9 +116,9 @@ void ManyPairs::setHeld(std::uint32_t slot) noexcept {
 
 void ManyPairs::insert(std::uint32_t slot) noexcept {
   std::size_t at = hashOf(slots_[slot].pair) % kTableSize;
-  while (table_[at] != kNone)
+  while (table_[at].slot != kNone)
     at = (at + 1) % kTableSize;
-  table_[at] = slot;
+  table_[at] = {slots_[slot].pair, slot};
 }
 
 std::uint32_t ManyPairs::add(const LeafPair& pair) noexcept {
@@ -144,7 +144,7 @@ void ManyPairs::visitSlots(Visit&& visit) const noexcept {
 }
 
 void ManyPairs::sweep() noexcept {
-  std::fill(table_.begin(), table_.end(), kNone);
+  std::fill(table_.begin(), table_.end(), Entry{});
   std::fill(groupTable_.begin(), groupTable_.end(), kNone);
   groupCount_ = 1;
   groups_[0] = {.least = kBeyondAll};
@@ -203,7 +203,7 @@ void ManyPairs::hold(std::span<const LeafPair> pairs, double turn) noexcept {
   for (std::size_t g = 0; g < groupCount_; ++g)
     groups_[g].nearest = kNone;
   for (std::uint32_t i = 0; i < nextOrder_.size(); ++i) {
-    slots_[nextOrder_[i].slot].place = i;
+    places_[nextOrder_[i].slot] = i;
     count(nextOrder_[i].slot);
   }
   std::swap(order_, nextOrder_);
@@ -269,12 +269,14 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
   };
   const auto separate = [&](std::uint32_t at) {
     slots_[at].distance = kBeyondAll;
+    Slot& slot = slots_[at];
     // A pair that is new in this look has just been separated at this very pose.
-    if (slots_[at].separated == look_) return;
-    slots_[at].separated = look_;
-    const PairDirections directions = directionsOf(scene, part, slots_[at].pair, pose);
+    if (slot.isKnown && look_ - slot.separated < (slot.isClose ? kLooksOfClose : 1)) return;
+    slot.separated = look_;
+    const PairDirections directions = directionsOf(scene, part, slot.pair, pose);
     spend(kWorkOfSeparation);
     know(at, directions.apart, keyOf(directions.ofContact, directions.onPart));
+    slot.isClose = directions.distance <= asked_.sure;
   };
   const auto test = [&](std::uint32_t at) {
     Slot& slot = slots_[at];

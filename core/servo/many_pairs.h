@@ -82,9 +82,9 @@ class ManyPairs {
     std::uint32_t group = 0;      ///< 0 if it has none: it is tested whenever it may be near.
     std::uint32_t look = 0;       ///< The look that tested it last.
     std::uint32_t separated = 0;  ///< The look that separated it last without a contact.
-    std::uint32_t place = 0;      ///< Index in order_ when it was held last.
     bool isKnown = false;         ///< It has a separation.
     bool isTested = false;        ///< It was tested since it became known.
+    bool isClose = false;         ///< Its features were within `sure` when it was separated last.
   };
   struct Group {
     std::uint64_t key = 0;
@@ -93,7 +93,7 @@ class ManyPairs {
   };
   enum class Stage : std::uint8_t { New, Nearest, Rest, Done };
 
-  /// Fetches into the caches what finding the pairs a little after `at` needs.
+  /// Fetches into the cache what finding the pair a little after `at` needs.
   void fetchAhead(std::span<const LeafPair> pairs, std::size_t at) const noexcept;
   std::uint32_t find(const LeafPair& pair) const noexcept;
   /// The same, for the pair that comes at place `next` or soon after if the order is that of the last call of hold();
@@ -117,8 +117,14 @@ class ManyPairs {
 
   std::vector<Slot> slots_;
   std::vector<SeparatedPairs> separations_;  ///< A lane for each slot.
-  std::vector<std::uint8_t> held_;    ///< For each of separations_, a bit for each lane whose pair is held.
-  std::vector<std::uint32_t> table_;  ///< Hash table of slots by pair.
+  std::vector<std::uint8_t> held_;  ///< For each of separations_, a bit for each lane whose pair is held.
+  /// Hash table of slots by pair. It holds the pairs themselves: a pair without a slot is told without reading others.
+  struct Entry {
+    LeafPair pair;
+    std::uint32_t slot = kNone;
+  };
+  std::vector<Entry> table_;
+  std::vector<std::uint32_t> places_;  ///< For each slot, its index in order_ when it was held last.
   struct Placed {
     LeafPair pair;
     std::uint32_t slot = 0;

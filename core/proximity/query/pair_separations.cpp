@@ -89,7 +89,7 @@ PairDirections directionsOf(const NormalConeTree& scene, const NormalConeTree& p
   const auto apartAlong = [&](const glm::dvec3& n) { return extentAlong(n, b).low - extentAlong(n, a).high; };
   PairDirections out;
   const glm::dvec3 between = betweenNearest(a, b);
-  const double distance = glm::length(between);
+  const double distance = out.distance = glm::length(between);
   if (distance > 0.0) out.apart = between / distance;
   // Faces look at the other body. The common perpendicular of edges has no side of its own.
   out.ofContact = unitOrZero(directionAcross(a, b));

@@ -42,6 +42,7 @@ struct PairDirections {
   /// The only direction that a contact of the two could have; zero if it could have many.
   glm::dvec3 ofContact{0.0};
   glm::dvec3 onPart{0.0};  ///< Point of the part near the scene's feature [m].
+  double distance = 0.0;   ///< Of the features [m].
 };
 /// Finds a pair's directions, from scene to part, and point, in the scene's centred frame. The pair must span a
 /// contact (spansContact()). Real-time safe.
