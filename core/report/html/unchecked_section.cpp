@@ -89,6 +89,8 @@ void putUncheckedPairs(ReportPageWriter& page, const FitReport& report) {
                              mmText(check.threshold)));
   casesEntry(page, check, "more minima than are kept",
              [](const PairFinding& f) { return !f.isEveryMinimum; });
+  casesEntry(page, check, "surfaces that meet, whose other near places were not looked for",
+             [](const PairFinding& f) { return f.verdict >= PairVerdict::Clash || f.distance == 0.0; });
   casesEntry(page, check, "a volume that is not known",
              [](const PairFinding& f) { return f.clash && !f.clash->volume; });
   casesEntry(page, check, "no known translation that frees the part",

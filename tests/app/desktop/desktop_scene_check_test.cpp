@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QProgressBar>
 #include <QTableView>
 #include <filesystem>
 
@@ -58,6 +59,14 @@ struct SceneCheckFixture {
     QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, table->visualRect(index).center());
   }
   QString summary() { return d.text("sceneCheckSummary"); }
+  /// Adds so many cubes in a row, 0.1 m apart.
+  void addCubes(int count) {
+    const PartGeometryPtr cube = d.session().scene().get(d.partId("moving")).geometry;
+    NewNodes more;
+    for (int i = 1; i <= count; ++i)
+      more.parts.push_back({cube, "cube " + std::to_string(i), {{1, 0, 0, 0}, {0.1 * i, 0.0, 0.0}}});
+    d.session().addNodes(more);
+  }
   /// Answers the dialog for a reason.
   static bool giveReason(QDialog& dialog) {
     auto* reason = dialog.findChild<QLineEdit*>(QStringLiteral("acceptReason"));
@@ -87,10 +96,14 @@ class DesktopSceneCheckTest : public QObject {
   void aFindingIsAcceptedWithAReasonAsAStepToUndo();
   void theNextCheckSaysWhatHasChanged();
   void rulesLeavePairsOutAndAllowOthers();
+  void rulesOfEachKindAreChosenAndRemoved();
   void aRuleForAPairNamesItsParts();
   void theResultIsOldOnceTheSceneChanges();
   void theTableIsFilteredByTextVerdictAndState();
+  void theTableIsFilteredByChange();
+  void aClickOnAHeadSortsTheTable();
   void aCheckThatIsCancelledLeavesTheButtonForAnother();
+  void aLongCheckSaysHowFarItIsAndCanBeCancelled();
   void findingsAreKeptInTheSceneFile();
   void findingsBeyondTheLimitOfASceneAreTold();
   void theTableIsExportedAsCsvAndJson();
@@ -285,6 +298,46 @@ void DesktopSceneCheckTest::rulesLeavePairsOutAndAllowOthers() {
   QVERIFY2(f.d.session().scene().pairRules().empty(), "the rules are one step, the check none");
 }
 
+void DesktopSceneCheckTest::rulesOfEachKindAreChosenAndRemoved() {
+  SceneCheckFixture f;
+  DialogAnswers answers;
+  answers.expect(QStringLiteral("rulesDialog"), [](QDialog& dialog) {
+    auto* kind = dialog.findChild<QComboBox*>(QStringLiteral("ruleKind"));
+    auto* list = dialog.findChild<QListWidget*>(QStringLiteral("ruleList"));
+    auto* remove = dialog.findChild<QPushButton*>(QStringLiteral("removeRule"));
+    const auto add = [&](int kindsDown) {
+      QTest::mouseClick(dialog.findChild<QPushButton*>(QStringLiteral("addRule")), Qt::LeftButton);
+      kind->setFocus();
+      for (int i = 0; i < kindsDown; ++i)
+        QTest::keyClick(kind, Qt::Key_Down);
+    };
+    const auto name = [&](const char* part, const char* other) {
+      dialog.findChild<QLineEdit*>(QStringLiteral("rulePart"))->setText(QLatin1String(part));
+      dialog.findChild<QLineEdit*>(QStringLiteral("ruleOther"))->setText(QLatin1String(other));
+    };
+    if (remove->isEnabled()) return false;
+    add(0);
+    name("plug", "fixed");
+    add(1);
+    // Parts of one group need no names.
+    if (dialog.findChild<QLineEdit*>(QStringLiteral("rulePart"))->isEnabled()) return false;
+    add(2);
+    name("mov*", "fixed");
+    list->setCurrentRow(0);
+    QTest::mouseClick(remove, Qt::LeftButton);
+    if (list->count() != 2) return false;
+    QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
+    return true;
+  });
+  f.press("sceneCheckRules");
+  QVERIFY2(answers.faults().isEmpty(), qPrintable(answers.faults().join(' ')));
+  const std::vector<PairRule> wanted{{PairRuleKind::SameGroup, "*", "*"},
+                                     {PairRuleKind::Touching, "mov*", "fixed"}};
+  QVERIFY(f.d.session().scene().pairRules() == wanted);
+  f.check();
+  QVERIFY2(f.summary().startsWith(QStringLiteral("1 clash, 1 near, 1 clear")), qPrintable(f.summary()));
+}
+
 void DesktopSceneCheckTest::aRuleForAPairNamesItsParts() {
   SceneCheckFixture f;
   f.check();
@@ -337,6 +390,38 @@ void DesktopSceneCheckTest::theTableIsFilteredByTextVerdictAndState() {
   QVERIFY(f.d.text("sceneCheckNote").startsWith(QStringLiteral("No finding")));
 }
 
+void DesktopSceneCheckTest::theTableIsFilteredByChange() {
+  SceneCheckFixture f;
+  f.check();
+  f.d.session().movePart(f.d.partId("plug"), {{1, 0, 0, 0}, {-0.001, 0.0, 0.0}});
+  f.check();
+  auto* changes = f.d.widget<QComboBox>("sceneCheckChanges");
+  changes->setCurrentIndex(changes->findData(static_cast<int>(ui::ChangeFilter::Changed)));
+  QCOMPARE(f.table->model()->rowCount(), 1);
+  QCOMPARE(f.cell(0, PairFindingsModel::Second), QStringLiteral("plug"));
+  changes->setCurrentIndex(changes->findData(static_cast<int>(ui::ChangeFilter::New)));
+  QCOMPARE(f.table->model()->rowCount(), 0);
+  changes->setCurrentIndex(changes->findData(static_cast<int>(ui::ChangeFilter::All)));
+  QCOMPARE(f.table->model()->rowCount(), 2);
+}
+
+void DesktopSceneCheckTest::aClickOnAHeadSortsTheTable() {
+  SceneCheckFixture f;
+  f.check();
+  QHeaderView& head = *f.table->horizontalHeader();
+  const auto click = [&head] {
+    const int at = head.sectionViewportPosition(PairFindingsModel::Second);
+    QTest::mouseClick(head.viewport(), Qt::LeftButton, {}, {at + 10, head.height() / 2});
+  };
+  QCOMPARE(f.cell(0, PairFindingsModel::Second), QStringLiteral("plug"));
+  click();
+  const QString first = f.cell(0, PairFindingsModel::Second);
+  click();
+  const QString second = f.cell(0, PairFindingsModel::Second);
+  QVERIFY2(first != second, qPrintable(first));
+  QCOMPARE(QStringList({first, second}).join(' ').contains(QStringLiteral("moving")), true);
+}
+
 void DesktopSceneCheckTest::aCheckThatIsCancelledLeavesTheButtonForAnother() {
   SceneCheckFixture f;
   auto* cancel = f.d.widget<QPushButton>("cancelSceneCheck");
@@ -350,6 +435,21 @@ void DesktopSceneCheckTest::aCheckThatIsCancelledLeavesTheButtonForAnother() {
           f.summary() == QStringLiteral("1 clash, 1 near, 1 clear"));
   f.check();
   QCOMPARE(f.summary(), QStringLiteral("1 clash, 1 near, 1 clear"));
+}
+
+void DesktopSceneCheckTest::aLongCheckSaysHowFarItIsAndCanBeCancelled() {
+  SceneCheckFixture f;
+  f.addCubes(600);
+  f.d.type<QDoubleSpinBox>("sceneCheckThreshold", "100 m");
+  f.press("runSceneCheck");
+  auto* progress = f.d.widget<QProgressBar>("sceneCheckProgress");
+  QVERIFY(progress->isVisible());
+  QTRY_VERIFY(progress->value() > progress->minimum());
+  f.press("cancelSceneCheck");
+  QTRY_VERIFY(!f.d.widget<QPushButton>("cancelSceneCheck")->isVisible());
+  QCOMPARE(f.summary(), QStringLiteral("Cancelled."));
+  QVERIFY(!progress->isVisible());
+  QCOMPARE(f.table->model()->rowCount(), 0);
 }
 
 void DesktopSceneCheckTest::findingsAreKeptInTheSceneFile() {
@@ -372,11 +472,7 @@ void DesktopSceneCheckTest::findingsAreKeptInTheSceneFile() {
 void DesktopSceneCheckTest::findingsBeyondTheLimitOfASceneAreTold() {
   SceneCheckFixture f;
   // With the three that are there 202 parts, of which all 20,301 pairs are within the threshold.
-  const PartGeometryPtr cube = f.d.session().scene().get(f.d.partId("moving")).geometry;
-  NewNodes more;
-  for (int i = 1; i < 200; ++i)
-    more.parts.push_back({cube, "cube " + std::to_string(i), {{1, 0, 0, 0}, {0.1 * i, 0.0, 0.0}}});
-  f.d.session().addNodes(more);
+  f.addCubes(199);
   f.d.type<QDoubleSpinBox>("sceneCheckThreshold", "100 m");
   f.check();
   QCOMPARE(f.table->model()->rowCount(), 20'301);

@@ -242,6 +242,9 @@ TEST(FitReport, WhatWasNotCheckedIsTold) {
   EXPECT_THAT(text, HasSubstr("1 part is hidden, not checked: Cover."));
   EXPECT_THAT(text, HasSubstr("Parts without triangles, not checked: Empty."));
   EXPECT_THAT(text, HasSubstr("no volume is known: Sheet."));
+  EXPECT_THAT(
+      text,
+      HasSubstr("1 pair with surfaces that meet, whose other near places were not looked for: Base – Lid."));
   EXPECT_THAT(text, HasSubstr("Rules left out 1 pair within the threshold: Lid – Side (rule 1)."));
   EXPECT_THAT(text, HasSubstr("beyond the threshold of 250 mm was not measured"));
   EXPECT_THAT(text, HasSubstr("no path was given"));
