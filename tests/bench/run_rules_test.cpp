@@ -36,7 +36,7 @@ TEST(RunRules, TellsHowManyProcessorsWereAtWork) {
 
 TEST(RunRules, TakesFilesAmongTheSourcesButNotUnderBuildForCommit) {
   const test::TemporaryFolder folder;
-  const auto sources = folder.path();
+  const auto& sources = folder.path();
   EXPECT_TRUE(isForCommit(sources / "tests" / "bench" / "results" / "feel.csv", sources));
   EXPECT_TRUE(isForCommit(sources / "build" / ".." / "tests" / "feel.csv", sources));
   EXPECT_FALSE(isForCommit(sources / "build" / "feel.csv", sources));
@@ -45,7 +45,8 @@ TEST(RunRules, TakesFilesAmongTheSourcesButNotUnderBuildForCommit) {
 
 TEST(RunRules, RefusesForCommitWhatCannotBeRepeated) {
   const test::TemporaryFolder folder;
-  const auto sources = folder.path(), file = sources / "feel.csv";
+  const auto& sources = folder.path();
+  const auto file = sources / "feel.csv";
   EXPECT_THROW(checkRepeatable(file, sources, "0123456789ab-dirty", 0.0, true), Error);
   EXPECT_THROW(checkRepeatable(file, sources, "unknown", 0.0, true), Error);
   EXPECT_THROW(checkRepeatable(file, sources, "0123456789ab", 1.0, false), Error);

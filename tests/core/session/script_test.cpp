@@ -543,8 +543,7 @@ TEST_F(ScriptTest, ASceneThatWasSavedWhereTheStartGoesIsNotReplaced) {
 }
 
 TEST_F(ScriptTest, ASceneThatIsThereAlreadyIsNotReplacedByTheStart) {
-  const fs::path there =
-      folder_.write(ScriptRecorder::startFileOf(script_).filename().string(), "somebody's");
+  folder_.write(ScriptRecorder::startFileOf(script_).filename().string(), "somebody's");
   session_.addPart(block(), "Block");
   EXPECT_THROW(recorder_.start(script_), UsageError);
   EXPECT_FALSE(fs::exists(script_));

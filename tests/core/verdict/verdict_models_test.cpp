@@ -80,7 +80,7 @@ TEST(ExactVerdicts, ADifferenceIsFound) {
 TEST(ExactVerdicts, TreesFindWhatAllPairsOfTrianglesGive) {
   test::RandomValues random(3);
   std::size_t meeting = 0, apart = 0;
-  for (unsigned i = 0; i < 16; ++i) {
+  for (std::uint64_t i = 0; i < 16; ++i) {
     const TriangleMesh scene = test::starMesh(2 * i, 0.5, 1, 0.4),
                        part = test::starMesh(2 * i + 1, 0.5, 1, 0.4);
     RigidTransform pose = random.pose().normalized();
