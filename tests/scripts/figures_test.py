@@ -343,15 +343,11 @@ class FirstArrival(Folder):
         self.assertIn("**missed** by rings", made)
         self.assertIn("|  | 100 | 1, 1 of 1 | 5.0 | 5.0 |", self.make("low rates"))
 
-    def test_give_no_verdict_on_rates_where_trials_differ_in_length(self):
+    def test_judge_the_claim_on_low_rates_by_those_shaken_at_1_khz(self):
         self.springs(shaken=1, failure="")
         self.assertIn("The paper's claim does not hold: more are shaken than at 1 kHz by springs at 100 Hz", self.make("soft springs and rates"))
         self.springs(shaken=0, failure="")
         self.assertIn("The paper's claim holds", self.make("soft springs and rates"))
-        file = self.root / "tests/stress/results/rest_springs.csv"
-        file.write_text(file.read_text().replace("0123456789ab", "38b9f861875f"))
-        self.assertIn("Nothing follows on the paper's claim", self.make("soft springs and rates"))
-        self.assertIn("no verdict", self.make("stress in the springs' modes"))
 
     def springs(self, shaken, failure):
         modes = ("spring", "printed", "grouped")
