@@ -84,7 +84,7 @@ inline constexpr double kTurnScaleWithoutTorque = kMinTurnScale;
 Wrench couplingWrench(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
                       const BodyMotion& handle, const BodyMotion& part) noexcept;
 
-/// What a coupling asks for, and what the device's limits leave of it.
+/// A wanted wrench, and the part of it that the device can render.
 struct LimitedCoupling {
   Wrench wanted;    ///< couplingWrench().
   Wrench rendered;  ///< Within the limits, but for damping beyond them.

@@ -51,7 +51,7 @@ def explore(shape, kind):
 
 
 def exact_geometry(shape):
-    """Of a shape of OpenCASCADE, in its own frame."""
+    """Returns the Geometry of an OpenCASCADE shape, in its own frame."""
     properties, box = GProp_GProps(), Bnd_Box()
     BRepGProp.VolumeProperties_s(shape, properties)
     BRepBndLib.AddOptimal_s(shape, box, False, False)
@@ -61,7 +61,7 @@ def exact_geometry(shape):
 
 
 def moved_box(shape, matrix):
-    """Of a shape of OpenCASCADE at a pose in metres."""
+    """Returns the box of an OpenCASCADE shape at a pose in metres."""
     turn, rows = gp_Trsf(), matrix[:3].copy()
     rows[:, 3] *= 1e3
     turn.SetValues(*rows.ravel())
@@ -69,7 +69,7 @@ def moved_box(shape, matrix):
 
 
 def mesh_geometry(meshes, metres=1.0):
-    """Of meshes of trimesh that bound one part together."""
+    """Returns the Geometry of trimesh meshes that bound one part together."""
     corners = np.array([mesh.bounds for mesh in meshes])
     return Geometry(metres**3 * sum(mesh.volume for mesh in meshes),
                     metres * np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)]), None, None)
@@ -243,7 +243,7 @@ def read_mesh(file, metres):
 
 
 def run_node(modules, script, *arguments):
-    """What a module of JavaScript prints, as JSON."""
+    """Runs a JavaScript module, and returns the JSON that it prints."""
     result = subprocess.run(["node", "--input-type=module", "-e", script, *map(str, arguments)], capture_output=True, text=True,
                             cwd=modules.parent)
     assert result.returncode == 0, result.stderr.strip()[-400:]
