@@ -29,7 +29,8 @@ void addSceneCheckOptions(CLI::App& command, CLI::Option& all,
                           const std::shared_ptr<SceneCheckOptions>& options);
 
 /// Checks all pairs of a scene's visible parts and prints what it finds; keeps it in the scene file if asked to. Throws
-/// NegativeVerdict if parts clash, no rule allows it and the user has not accepted it as it is; UsageError, FileError, Cancelled (after an interrupt).
+/// NegativeVerdict if parts clash, no rule allows it and the user has not accepted it as it is; UsageError, FileError,
+/// Cancelled (after an interrupt).
 void runSceneCheck(const std::string& scene, const SceneCheckOptions& options);
 
 }  // namespace nearfit::cli

@@ -115,8 +115,8 @@ Wrench dampingOf(const CouplingState& coupling, const MassMetric& metric, const 
 struct TorqueLimited {
   double share = 1.0;   ///< Of the torque.
   double energy = 0.0;  ///< [J]
-  double limit =
-      0.0;  ///< Energy beyond which force and torque are scaled down [J]; infinity without a force.
+  /// Energy beyond which force and torque are scaled down [J]; infinity without a force.
+  double limit = std::numeric_limits<double>::infinity();
 };
 
 TorqueLimited torqueLimited(const CouplingState& coupling, const CouplingLoad& load,
@@ -127,7 +127,6 @@ TorqueLimited torqueLimited(const CouplingState& coupling, const CouplingLoad& l
   // The integral of what is rendered along the straight way. Leaves out that the torque of large rotations grows a
   // little less than the rotation.
   result.energy = result.share * (1.0 - 0.5 * result.share) * glm::dot(load.load, load.stretch.turn);
-  result.limit = std::numeric_limits<double>::infinity();
   if (!(limits.maxForce > 0.0) || !(coupling.stiffness > 0.0)) return result;
   result.energy += 0.5 * glm::dot(load.force, load.stretch.shift);
   result.limit = 0.5 * limits.maxForce * limits.maxForce / coupling.stiffness;

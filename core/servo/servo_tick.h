@@ -35,10 +35,9 @@ struct ServoParameters {
 /// The device's pose becomes the handle's (WorkspaceMapper). In the proxy mode the part follows the handle as
 /// far as it can (Proxy), and the hand feels the coupling between the two. In the springs mode the part is
 /// where the handle is, and the hand feels the sum of the springs, as far as the device bears it (boundedSprings()). The
-/// wrench is kept passive
-/// (PassivityController) and within the device's limits (limitedCoupling(), WrenchConditioner). When the mode changes, the handle
-/// returns to the part and the force ramps up from zero: the handle may be where only the other mode lets the
-/// part go. In either mode the hand also feels the scene's guidance (GuidanceFollower), if there is one.
+/// wrench is kept passive (PassivityController) and within the device's limits (limitedCoupling(), WrenchConditioner). When
+/// the mode changes, the handle returns to the part and the force ramps up from zero: the handle may be where only the
+/// other mode lets the part go. In either mode the hand also feels the scene's guidance (GuidanceFollower), if there is one.
 ///
 /// A tick has two halves: feel() computes what the hand waits for, show() the rest, when the wrench is on its way.
 /// In the proxy mode the wrench does not wait for geometry: feel() lets the part follow for as much as

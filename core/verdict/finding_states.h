@@ -58,8 +58,9 @@ FindingChanges changesIn(const std::vector<ComparedFinding>& findings) noexcept;
 
 /// The records to keep with the scene, up to kMaxPairRecords in all: first those that the user said something about and
 /// that are still there (accepted, with a reason, or marked as fixed), then clashes and contained parts, then what is gone,
-/// and of the rest those that touch or are nearest. In ascending order of pairs. An accepted finding keeps the measures that it was accepted with as
-/// long as it stays the same, so that it cannot creep away from them by steps too small to count.
+/// and of the rest those that touch or are nearest. In ascending order of pairs. An accepted finding keeps the measures
+/// that it was accepted with as long as it stays the same, so that it cannot creep away from them by steps too small to
+/// count.
 std::vector<PairRecord> recordsOf(const std::vector<ComparedFinding>& findings);
 
 /// Number of findings that recordsOf() leaves out.

@@ -78,7 +78,8 @@ struct FitReport {
   std::vector<ComparedFinding> findings;
   std::optional<PathFindings> path;
 
-  /// True if no clash is forbidden but those that the user has accepted as they are, no pose of the path meets a part, and no certificate was refused.
+  /// True if no clash is forbidden but those that the user has accepted as they are, no pose of the path meets a part, and
+  /// no certificate was refused.
   bool isGood() const noexcept;
 };
 

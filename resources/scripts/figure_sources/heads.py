@@ -1,5 +1,6 @@
 """Heads of result files that Python writes, alike those of nearfit-bench (tests/bench/machine.cpp, run_rules.h)."""
 
+import csv
 import datetime
 import os
 import pathlib
@@ -101,6 +102,16 @@ def head_or_exit(script, file, root, build, allows_busy):
     except NotRepeatable as refusal:
         sys.exit(f"{script}: {refusal}")
     return head(root, build, at_work)
+
+
+def write_csv(file, head, columns, rows):
+    """Writes a result file: `head` as comments, then `rows`, a dict each; makes its folder."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    with file.open("w", newline="", encoding="utf-8") as out:
+        out.writelines(f"# {line}\n" for line in head)
+        writer = csv.DictWriter(out, columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 def head(root, build, at_work):

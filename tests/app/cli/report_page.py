@@ -16,7 +16,6 @@ right. --csv writes a row for each report; results that are kept are of a clean 
 which resources/scripts/figures makes the table in resources/docs/cli.md.
 """
 import argparse
-import csv
 import json
 import re
 import shutil
@@ -371,12 +370,7 @@ def main():
             print("  " + problem)
         rows.append(row)
     if options.csv:
-        options.csv.parent.mkdir(parents=True, exist_ok=True)
-        with options.csv.open("w", newline="", encoding="utf-8") as out:
-            out.writelines(f"# {line}\n" for line in head)
-            writer = csv.DictWriter(out, rows[0].keys(), lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
+        heads.write_csv(options.csv, head, rows[0].keys(), rows)
     return 0 if all(row["right"] == "yes" for row in rows) else 1
 
 

@@ -436,12 +436,7 @@ def main():
                 print("  " + fault)
             rows.append(row)
     if given.csv:
-        given.csv.parent.mkdir(parents=True, exist_ok=True)
-        with given.csv.open("w", newline="", encoding="utf-8") as out:
-            out.writelines(f"# {line}\n" for line in head)
-            writer = csv.DictWriter(out, Row.COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
+        heads.write_csv(given.csv, head, Row.COLUMNS, rows)
     return 1 if any(row.faults for row in rows) else 0
 
 
