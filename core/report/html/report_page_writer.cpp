@@ -21,6 +21,7 @@ constexpr const char* kPageStyle =
     "table { border-collapse: collapse; width: 100%; font-size: 8.5pt; }\n"
     "thead { display: table-header-group; }\n"
     "tr, figure, li, dl { break-inside: avoid; }\n"
+    "li { overflow-wrap: anywhere; }\n"
     "th, td { border: 0.2mm solid #bbb; padding: 0.8mm 1.2mm; text-align: left; vertical-align: top;\n"
     "  overflow-wrap: anywhere; }\n"
     "th { background: #eee; overflow-wrap: normal; }\n"
