@@ -84,8 +84,6 @@ constexpr double kNeeded = 1.45 / kContactReach;
 /// There, a look finds all contacts within this share of the reach, those that may be nearer than the margin. Of what is
 /// farther it finds what was nearest before, which is nearly all; the rest it finds once it comes near.
 constexpr double kSure = 0.98 / kContactReach;
-/// Pairs given to ManyPairs in the time of a unit of work.
-constexpr std::uint64_t kHeldOfWork = 2;
 /// Pairs tested before it is asked again whether work is left.
 constexpr std::size_t kChunk = 64;
 /// After a tick in which nothing could be seen, surfaces may use all the work for this many ticks.
@@ -436,7 +434,7 @@ ContactFinder::Gathered ContactFinder::gatherWithin(const TrackedScene& tracked,
     holds_.turn = std::min(holds_.travel / scene.metric.radius, most.turn);
   }
   isHoldingPairs_ = outcome == Gathered::Held;
-  arePairsArranged_ = false;
+  arranging_ = {};
   if (gathering.stretch) {
     // Lists follow the middle of the part's box, and its centre of mass strays from that way as the part turns.
     const double turn = 2.0 * glm::length(stretch_.spin);
@@ -459,30 +457,45 @@ std::size_t ContactFinder::manyFor(const HeldBody& held) noexcept {
   return place;
 }
 
-void ContactFinder::arrangePairs(const ServoScene& scene) noexcept {
-  std::size_t used = 0;
+bool ContactFinder::arrangePairs(const ServoScene& scene) noexcept {
   const std::span<HeldBody> bodies = std::span(bodies_).first(bodyCount_);
   for (ManyOfBody& many : many_) {
     many.isHeld = many.body && std::ranges::any_of(bodies, [&](const HeldBody& held) {
                     return held.body == *many.body && held.count >= kFewPairs;
                   });
   }
-  for (HeldBody& held : bodies) {
+  for (; arranging_.bodies < bodies.size(); ++arranging_.bodies) {
+    HeldBody& held = bodies[arranging_.bodies];
     if (scene.bodies[held.body].surface) continue;
     const std::span<LeafPair> pairs = std::span(pairs_).subspan(held.first, held.count);
-    held.many = manyFor(held);
+    if (!arranging_.isHolding) held.many = manyFor(held);
     if (held.many < kMaxMany) {
-      ManyOfBody& many = many_[held.many];
-      many.isHeld = true;
-      many.pairs.hold(pairs, motionOf(scene, many.pose, pairsPose_).turn);
-      many.pose = pairsPose_;
-      spend(held.count / kHeldOfWork);
+      if (!holdMany(scene, many_[held.many], pairs)) return false;
       continue;
     }
-    held.firstBlock = used;
-    held.blocks = std::min(edgePairsToFront(pairs) / EdgePairs::kLanes, edgePairs_.size() - used);
-    used += held.blocks;
+    held.firstBlock = arranging_.blocks;
+    held.blocks =
+        std::min(edgePairsToFront(pairs) / EdgePairs::kLanes, edgePairs_.size() - arranging_.blocks);
+    arranging_.blocks += held.blocks;
   }
+  arranging_.isDone = true;
+  return true;
+}
+
+bool ContactFinder::holdMany(const ServoScene& scene, ManyOfBody& many,
+                             std::span<const LeafPair> pairs) noexcept {
+  many.isHeld = true;
+  // The wrench does not wait for it.
+  if (excess_ == Excess::None) return false;
+  if (!arranging_.isHolding) {
+    many.pairs.beginHolding(pairs, motionOf(scene, many.pose, pairsPose_).turn);
+    many.pose = pairsPose_;
+  }
+  std::uint64_t left = workLeft();
+  const std::uint64_t before = left;
+  arranging_.isHolding = !many.pairs.goOnHolding(left);
+  spend(before - left);
+  return !arranging_.isHolding;
 }
 
 void ContactFinder::testPairs(const ServoScene& scene, HeldBody& held, std::size_t first,
@@ -611,13 +624,7 @@ void ContactFinder::giveUpLook() noexcept {
 }
 
 bool ContactFinder::testBodies(const ServoScene& scene) noexcept {
-  if (!arePairsArranged_) {
-    // After gathering thousands it waits for the next tick, which has work for it in any case.
-    const bool isLate = excess_ == Excess::None || workDone_ > kFreshWork;
-    if (isLate && workLeft() < pairCount_ / kHeldOfWork) return false;
-    arrangePairs(scene);
-    arePairsArranged_ = true;
-  }
+  if (!arranging_.isDone && !arrangePairs(scene)) return false;
   const std::span<HeldBody> held = std::span(bodies_).first(bodyCount_);
   for (; look_.body < held.size(); ++look_.body, look_.pair = 0) {
     HeldBody& body = held[look_.body];

@@ -49,8 +49,8 @@ class ContactFinder {
   static constexpr std::size_t kMaxContacts = ContactThinning::kMaxKept;
   /// Max pairs of features held, and of those that are gathered with room for motion around a pose.
   static constexpr std::size_t kMaxPairs = ManyPairs::kMax, kManyPairs = 1U << 14;
-  /// Work that a tick is usually allowed: nodes opened, pairs listed, packed and tested; some 0.15 ms. Tests stop
-  /// when it is spent, and go on in the next tick.
+  /// Work that a tick is usually allowed: nodes opened, pairs listed, held, packed and tested; some 0.15 ms. Holding
+  /// pairs, and tests, stop when it is spent, and go on in the next tick.
   static constexpr std::uint64_t kUsualWork = 1U << 12;
   /// Max work of a tick. Gathering pairs, which cannot be left half done, may exceed what is allowed up to this:
   /// a pass over the longest list, some 0.5 ms. Never exceeded: pairs are gathered within it or not at all.
@@ -184,8 +184,10 @@ class ContactFinder {
   Gathered gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                         const Gathering& gathering) noexcept;
   /// Gives the pairs of each body to ManyPairs, or moves its pairs of edges to the front, where blocks of them can be
-  /// packed.
-  void arrangePairs(const ServoScene& scene) noexcept;
+  /// packed. False if the work ran out: called again, it goes on.
+  bool arrangePairs(const ServoScene& scene) noexcept;
+  /// The same for a body of thousands.
+  bool holdMany(const ServoScene& scene, ManyOfBody& many, std::span<const LeafPair> pairs) noexcept;
   /// Index in many_ for a body's pairs; kMaxMany if there are few of them, or no place.
   std::size_t manyFor(const HeldBody& held) noexcept;
   Gathered gatherOne(const TrackedScene& tracked, std::uint32_t body, const TrackedScene::Near* known,
@@ -242,7 +244,14 @@ class ContactFinder {
   MotionBudget holds_;
   MotionStretch stretch_;       ///< As to the centre of mass, in the world's axes.
   double stretchTravel_ = 0.0;  ///< From end to end [m].
-  bool isHoldingPairs_ = false, arePairsArranged_ = false;
+  bool isHoldingPairs_ = false;
+  /// How far the pairs held are arranged.
+  struct Arranging {
+    bool isDone = false;
+    std::size_t bodies = 0, blocks = 0;  ///< Bodies that are arranged, and blocks that they use.
+    bool isHolding = false;              ///< Those of the next body are being given to ManyPairs.
+  };
+  Arranging arranging_;
   /// Level of the room for motion that pairs are gathered with; higher levels have less room.
   std::size_t roomLevel_ = 0;
   std::size_t tickLevel_ = 0;  ///< The same for the rest of this tick, which has less work left.

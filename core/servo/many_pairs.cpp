@@ -1,6 +1,7 @@
 #include "core/servo/many_pairs.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include <glm/geometric.hpp>
@@ -38,10 +39,23 @@ constexpr double kLeastGain = 0.005;
 constexpr std::uint32_t kLooksOfClose = 16;
 /// Work of a test, of finding a separation after it, and of a passage; and pairs bounded in a unit of work.
 constexpr std::uint64_t kWorkOfExactTest = 2, kWorkOfSeparation = 2, kWorkOfOnePassage = 1;
-constexpr std::uint64_t kBoundedOfWork = 16, kBoundedOnWayOfWork = 8;
+constexpr std::size_t kBoundedOfWork = 32, kBoundedOnWayOfWork = 16;
+/// Pairs that are to be held and are found, added and counted in a unit of work; slots swept; and pairs before it is asked
+/// again whether work is left.
+constexpr std::size_t kFoundOfWork = 3, kAddedOfWork = 4, kCountedOfWork = 8, kSweptOfWork = 8,
+                      kHeldAtOnce = 64;
+/// Blocks of pairs bounded before it is asked again whether work is left.
+constexpr std::size_t kBlocksAtOnce = 16;
 
 std::uint64_t hashOf(const LeafPair& pair) noexcept {
   return mixedBits(static_cast<std::uint64_t>(pair.scene) << 32U | pair.part);
+}
+
+/// Makes room and writes to it, so that the servo thread does not wait for the system to provide it at its first use.
+template <class T>
+void makeRoom(std::vector<T>& of, std::size_t count) {
+  of.resize(count);
+  of.clear();
 }
 
 std::size_t kindOf(const LeafPair& pair) noexcept {
@@ -60,11 +74,11 @@ ManyPairs::ManyPairs()
       groupTable_(kGroupTableSize, kNone),
       kernel_(separationKernel(defaultSimdLevel())) {
   for (std::vector<std::uint32_t>& slots : free_)
-    slots.reserve(kSlotsOfKind);
-  order_.reserve(kMax);
-  nextOrder_.reserve(kMax);
-  new_.reserve(kMax);
-  unknown_.reserve(kMax);
+    makeRoom(slots, kSlotsOfKind);
+  makeRoom(order_, kMax);
+  makeRoom(nextOrder_, kMax);
+  makeRoom(new_, kMax);
+  makeRoom(unknown_, kMax);
   forget();
 }
 
@@ -81,6 +95,7 @@ void ManyPairs::forget() noexcept {
   groups_[0] = {.least = kBeyondAll};
   turn_ = 0.0;
   stage_ = Stage::Done;
+  holdingStage_ = HoldingStage::Done;
 }
 
 void ManyPairs::fetchAhead(std::span<const LeafPair> pairs, std::size_t at) const noexcept {
@@ -150,6 +165,8 @@ void ManyPairs::sweep() noexcept {
   groups_[0] = {.least = kBeyondAll};
   for (std::vector<std::uint32_t>& slots : free_)
     slots.clear();
+  // The slots that it names may soon be those of other pairs.
+  order_.clear();
   visitSlots([this](std::uint32_t at) {
     if (!isHeld(at)) {
       free_[at / kSlotsOfKind].push_back(at);
@@ -172,41 +189,75 @@ void ManyPairs::count(std::uint32_t at) noexcept {
   if (group.nearest == kNone || slot.distance < slots_[group.nearest].distance) group.nearest = at;
 }
 
-void ManyPairs::hold(std::span<const LeafPair> pairs, double turn) noexcept {
+void ManyPairs::beginHolding(std::span<const LeafPair> pairs, double turn) noexcept {
   turn_ += turn;
   stage_ = Stage::Done;
   std::fill(held_.begin(), held_.end(), std::uint8_t{0});
   nextOrder_.clear();
   new_.clear();
   unknown_.clear();
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const LeafPair& pair = pairs[i];
-    fetchAhead(pairs, i);
-    const std::uint32_t slot = findNear(pair, next);
-    if (slot == kNone) {
-      unknown_.push_back(pair);
-      continue;
+  toHold_ = pairs;
+  holdingStage_ = HoldingStage::Find;
+  holdAt_ = nextPlace_ = 0;
+}
+
+bool ManyPairs::goOnHolding(std::uint64_t& work) noexcept {
+  const auto spend = [&work](std::uint64_t done) { work -= std::min(work, done); };
+  // Calls step(index) from where it was left to the end, and goes to the next stage; false if the work is spent before.
+  const auto runStage = [&](std::size_t end, std::size_t ofWork, HoldingStage next, auto&& step) {
+    while (holdAt_ < end) {
+      if (work == 0) return false;
+      const std::size_t stop = std::min(end, holdAt_ + kHeldAtOnce);
+      spend(1 + (stop - holdAt_) / ofWork);
+      for (; holdAt_ < stop; ++holdAt_)
+        step(holdAt_);
     }
+    holdAt_ = 0;
+    holdingStage_ = next;
+    return true;
+  };
+  const auto keep = [this](const LeafPair& pair, std::uint32_t slot) {
     setHeld(slot);
     nextOrder_.push_back({pair, slot});
+  };
+  if (holdingStage_ == HoldingStage::Find) {
+    const auto findOne = [&](std::size_t i) {
+      fetchAhead(toHold_, i);
+      const std::uint32_t slot = findNear(toHold_[i], nextPlace_);
+      if (slot == kNone)
+        unknown_.push_back(toHold_[i]);
+      else
+        keep(toHold_[i], slot);
+    };
+    if (!runStage(toHold_.size(), kFoundOfWork, HoldingStage::Add, findOne)) return false;
+    const std::size_t there = used_[0] + used_[1] - free_[0].size() - free_[1].size();
+    const std::size_t unheld = there - nextOrder_.size();
+    // Pairs that come back find their separations, but too many make every pass longer.
+    if (unheld > toHold_.size() / 2 || there + unknown_.size() > kMax || groupCount_ > kManyGroups) {
+      spend(there / kSweptOfWork);
+      sweep();
+    }
   }
-  const std::size_t there = used_[0] + used_[1] - free_[0].size() - free_[1].size();
-  const std::size_t unheld = there - nextOrder_.size();
-  // Pairs that come back find their separations, but too many make every pass longer.
-  if (unheld > pairs.size() / 2 || there + unknown_.size() > kMax || groupCount_ > kManyGroups) sweep();
-  for (const LeafPair& pair : unknown_) {
-    const std::uint32_t slot = add(pair);
-    setHeld(slot);
-    nextOrder_.push_back({pair, slot});
+  if (holdingStage_ == HoldingStage::Add) {
+    const auto addOne = [&](std::size_t i) { keep(unknown_[i], add(unknown_[i])); };
+    if (!runStage(unknown_.size(), kAddedOfWork, HoldingStage::Count, addOne)) return false;
+    for (std::size_t g = 0; g < groupCount_; ++g)
+      groups_[g].nearest = kNone;
   }
-  for (std::size_t g = 0; g < groupCount_; ++g)
-    groups_[g].nearest = kNone;
-  for (std::uint32_t i = 0; i < nextOrder_.size(); ++i) {
-    places_[nextOrder_[i].slot] = i;
-    count(nextOrder_[i].slot);
+  if (holdingStage_ == HoldingStage::Count) {
+    const auto countOne = [&](std::size_t i) {
+      if (i + kFetchedAhead < nextOrder_.size()) {
+        const std::uint32_t ahead = nextOrder_[i + kFetchedAhead].slot;
+        __builtin_prefetch(&slots_[ahead]);
+        __builtin_prefetch(&places_[ahead], 1);
+      }
+      places_[nextOrder_[i].slot] = static_cast<std::uint32_t>(i);
+      count(nextOrder_[i].slot);
+    };
+    if (!runStage(nextOrder_.size(), kCountedOfWork, HoldingStage::Done, countOne)) return false;
+    std::swap(order_, nextOrder_);
   }
-  std::swap(order_, nextOrder_);
+  return true;
 }
 
 std::uint32_t ManyPairs::groupOf(std::uint64_t key) noexcept {
@@ -324,68 +375,60 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
     at_ = 0;
   }
   if (stage_ == Stage::Done) return found_;
-  const std::array poses{separationPose(pose, false), separationPose(pose, true)};
-  std::array<SeparationPose, 2> starts;
-  std::optional<PairPassage> passage;
-  if (asked_.way) {
-    const RigidTransform from = centredPose(scene, part, asked_.way->from);
-    starts = {separationPose(from, false), separationPose(from, true)};
-    passage.emplace(scene, part, *asked_.way, asked_.enough);
-  }
   const double rounding =
       kSeparationRoundings * kPointRounding * (scene.size() + part.size() + glm::length(pose.translation));
   const double gain = kLeastGain * asked_.need, sure = std::min(asked_.sure, asked_.need),
                least = asked_.enough + rounding;
-  const std::array lost{least + (asked_.way ? asked_.way->bend : 0.0), least + asked_.bendFromPart};
-  const std::size_t end = 2 * kSlotsOfKind;
-  SeparatedPairs::Numbers apart, before{};
-  std::uint64_t bounded = 0;
-  const auto spendBounded = [&] {
-    spend(bounded / (asked_.way ? kBoundedOnWayOfWork : kBoundedOfWork));
-    bounded = 0;
+  std::array<SeparationScan, 2> scans;
+  for (std::size_t kind = 0; kind < scans.size(); ++kind)
+    scans[kind] = {.pose = separationPose(pose, kind != 0), .near = asked_.need + rounding};
+  std::optional<PairPassage> passage;
+  if (asked_.way) {
+    const RigidTransform from = centredPose(scene, part, asked_.way->from);
+    for (std::size_t kind = 0; kind < scans.size(); ++kind) {
+      scans[kind].isOfWay = true;
+      scans[kind].start = separationPose(from, kind != 0);
+      scans[kind].nearOnWay = least + (kind != 0 ? asked_.bendFromPart : asked_.way->bend);
+    }
+    passage.emplace(scene, part, *asked_.way, asked_.enough);
+  }
+  const auto lookAt = [&](std::size_t lane, const SeparationScan& scan, const SeparationsFound& found) {
+    const auto at = static_cast<std::uint32_t>(at_ + lane);
+    if (asked_.way && !(std::min(found.apart[lane], found.atStart[lane]) > scan.nearOnWay)) {
+      found_.leastOnWay = std::min(found_.leastOnWay, passage->leastOf(slots_[at].pair));
+      spend(kWorkOfOnePassage);
+    }
+    const double bound = found.apart[lane] - rounding;
+    if (bound > asked_.need) {
+      found_.least = std::min(found_.least, bound);
+      return;
+    }
+    const Slot& slot = slots_[at];
+    if (slot.look == look_) return;
+    if (bound <= std::min(slot.isTested ? sure : asked_.need, groups_[slot.group].least - gain))
+      test(at);
+    else
+      found_.least = std::min(found_.least, bound);
   };
-  for (; at_ < end; at_ += kLanes) {
-    const std::size_t kind = at_ / kSlotsOfKind;
-    if (at_ % kSlotsOfKind >= used_[kind]) {
-      at_ = (kind + 1) * kSlotsOfKind - kLanes;
-      continue;
-    }
-    const unsigned held = held_[at_ / kLanes];
-    if (held == 0) continue;
-    if (bounded >= 64) spendBounded();
-    if (work == 0 || count + kLanes > out.size()) return std::nullopt;
-    bounded += kLanes;
-    const SeparatedPairs& separations = separations_[at_ / kLanes];
-    kernel_(separations, poses[kind], apart);
-    if (asked_.way) kernel_(separations, starts[kind], before);
-    double lowest = kBeyondAll, lowestOnWay = kBeyondAll;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const bool isHeld = (held >> lane & 1U) != 0;
-      lowest = std::min(lowest, isHeld ? apart[lane] : kBeyondAll);
-      lowestOnWay = std::min(lowestOnWay, isHeld ? std::min(apart[lane], before[lane]) : kBeyondAll);
-    }
-    // Most blocks are far enough from all that matters.
-    if (lowest - rounding > asked_.need && (!asked_.way || lowestOnWay > lost[kind])) {
+  const std::size_t boundedOfWork = asked_.way ? kBoundedOnWayOfWork : kBoundedOfWork;
+  SeparationsFound found;
+  for (std::size_t kind = at_ / kSlotsOfKind; kind < used_.size(); at_ = ++kind * kSlotsOfKind) {
+    const std::size_t end = (kind * kSlotsOfKind + used_[kind] + kLanes - 1) / kLanes;
+    while (at_ / kLanes < end) {
+      if (work == 0 || count + kLanes > out.size()) return std::nullopt;
+      const std::size_t first = at_ / kLanes, stop = std::min(first + kBlocksAtOnce, end);
+      double lowest = kBeyondAll;
+      const std::size_t block =
+          kernel_(separations_.data(), held_.data(), first, stop, scans[kind], found, lowest);
       found_.least = std::min(found_.least, lowest - rounding);
-      continue;
-    }
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if ((held >> lane & 1U) == 0) continue;
-      const auto at = static_cast<std::uint32_t>(at_ + lane);
-      const Slot& slot = slots_[at];
-      if (asked_.way && !(std::min(apart[lane], before[lane]) > lost[kind])) {
-        found_.leastOnWay = std::min(found_.leastOnWay, passage->leastOf(slot.pair));
-        spend(kWorkOfOnePassage);
-      }
-      if (slot.look == look_) continue;
-      const double bound = apart[lane] - rounding;
-      if (bound <= std::min(slot.isTested ? sure : asked_.need, groups_[slot.group].least - gain))
-        test(at);
-      else
-        found_.least = std::min(found_.least, bound);
+      at_ = block * kLanes;
+      spend(1 + (block - first) * kLanes / boundedOfWork);
+      if (block == stop) continue;
+      for (unsigned lanes = held_[block]; lanes != 0; lanes &= lanes - 1)
+        lookAt(static_cast<std::size_t>(std::countr_zero(lanes)), scans[kind], found);
+      at_ += kLanes;
     }
   }
-  spendBounded();
   stage_ = Stage::Done;
   return found_;
 }

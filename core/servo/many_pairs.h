@@ -32,8 +32,12 @@ class ManyPairs {
   /// Forgets all pairs.
   void forget() noexcept;
   /// From now on holds these pairs, at most kMax, which span contacts. What is known of those held before stays.
-  /// @param turn  Angle by which the part has turned since the last call, at most [rad].
-  void hold(std::span<const LeafPair> pairs, double turn) noexcept;
+  /// @param pairs  Must outlive the calls of goOnHolding(); no look may begin before these are done.
+  /// @param turn   Angle by which the part has turned since the last call, at most [rad].
+  void beginHolding(std::span<const LeafPair> pairs, double turn) noexcept;
+  /// Goes on with that until it is done, which it returns, or the work is spent.
+  /// @param work  Work allowed, as in ContactFinder; the work done is subtracted, down to 0.
+  bool goOnHolding(std::uint64_t& work) noexcept;
 
   /// Parameters of a look.
   struct Asked {
@@ -92,6 +96,7 @@ class ManyPairs {
     double least = 0.0;             ///< In this look [m].
   };
   enum class Stage : std::uint8_t { New, Nearest, Rest, Done };
+  enum class HoldingStage : std::uint8_t { Find, Add, Count, Done };
 
   /// Fetches into the cache what finding the pair a little after `at` needs.
   void fetchAhead(std::span<const LeafPair> pairs, std::size_t at) const noexcept;
@@ -139,6 +144,11 @@ class ManyPairs {
   std::vector<std::uint32_t> groupTable_;
   std::size_t groupCount_ = 0;
   double turn_ = 0.0;  ///< Turn of the part, added up [rad].
+
+  std::span<const LeafPair> toHold_;
+  HoldingStage holdingStage_ = HoldingStage::Done;
+  std::size_t holdAt_ = 0;     ///< Where that stage goes on.
+  std::size_t nextPlace_ = 0;  ///< In order_, for findNear().
 
   Asked asked_;
   Stage stage_ = Stage::Done;

@@ -66,7 +66,7 @@ class MinimaFinder {
   static constexpr MinimaAllowance kFeltByArea{kFelt.search, kFelt.merge, 1U << 20};
   /// For minima that are only shown: on a slow core some 0.3 ms of search and 0.3 ms of merging, enough for 130
   /// pieces; and where contacts have taken most of the tick's time.
-  static constexpr MinimaAllowance kShown{3U << 11, 3U << 11}, kShownInFullTick{1U << 10, 1U << 11};
+  static constexpr MinimaAllowance kShown{3U << 11, 3U << 11}, kShownInFullTick{1U << 9, 1U << 10};
 
   struct Result {
     std::uint32_t count = 0;       ///< Minima found, of all bodies.

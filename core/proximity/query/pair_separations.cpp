@@ -1,6 +1,7 @@
 #include "core/proximity/query/pair_separations.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -11,50 +12,98 @@
 namespace nearfit {
 namespace {
 
-using PairDoubles = double __attribute__((vector_size(32)));
+using PairDoubles = double __attribute__((vector_size(64)));
+using PairBits = std::int64_t __attribute__((vector_size(64)));
 using PairVectors = simd::Triple<PairDoubles>;
 static_assert(sizeof(PairDoubles) == SeparatedPairs::kLanes * sizeof(double));
 
-NEARFIT_INLINE PairVectors loadVectors(const SeparatedPairs::Vectors& lanes) {
-  PairVectors out;
-  __builtin_memcpy(&out.x, &lanes[0], sizeof out.x);
-  __builtin_memcpy(&out.y, &lanes[1], sizeof out.y);
-  __builtin_memcpy(&out.z, &lanes[2], sizeof out.z);
+constexpr double kBeyondAll = std::numeric_limits<double>::infinity();
+
+NEARFIT_INLINE simd::Lanes<PairDoubles> loadNumbers(const SeparatedPairs::Numbers& lanes) {
+  simd::Lanes<PairDoubles> out;
+  __builtin_memcpy(&out.value, &lanes, sizeof out.value);
   return out;
+}
+NEARFIT_INLINE PairVectors loadVectors(const SeparatedPairs::Vectors& lanes) {
+  return {loadNumbers(lanes[0]).value, loadNumbers(lanes[1]).value, loadNumbers(lanes[2]).value};
 }
 NEARFIT_INLINE PairVectors spreadVector(const glm::dvec3& v) {
   return {PairDoubles{} + v.x, PairDoubles{} + v.y, PairDoubles{} + v.z};
 }
 
-NEARFIT_INLINE void separate(const SeparatedPairs& pairs, const SeparationPose& pose,
-                             SeparatedPairs::Numbers& out) {
-  const PairVectors direction = loadVectors(pairs.direction);
-  // The direction in the other body's frame, once for both ends.
-  const PairVectors there{simd::dot(spreadVector(pose.turn[0]), direction),
-                          simd::dot(spreadVector(pose.turn[1]), direction),
-                          simd::dot(spreadVector(pose.turn[2]), direction)};
+/// How far the pairs of a block are apart; infinity where none is held.
+struct Block {
+  PairVectors direction, first, second;
   PairDoubles height;
-  __builtin_memcpy(&height, &pairs.height, sizeof height);
-  const PairDoubles first = simd::dot(there, loadVectors(pairs.ends[0])),
-                    second = simd::dot(there, loadVectors(pairs.ends[1]));
+  PairBits isHeld;
+};
+NEARFIT_INLINE simd::Lanes<PairDoubles> apartIn(const Block& block, const SeparationPose& pose) {
+  // The direction in the other body's frame, once for both ends.
+  const PairVectors there{simd::dot(spreadVector(pose.turn[0]), block.direction),
+                          simd::dot(spreadVector(pose.turn[1]), block.direction),
+                          simd::dot(spreadVector(pose.turn[2]), block.direction)};
+  const PairDoubles first = simd::dot(there, block.first), second = simd::dot(there, block.second);
   const PairDoubles apart =
-      (first < second ? first : second) + (simd::dot(spreadVector(pose.shift), direction) - height);
-  __builtin_memcpy(&out, &apart, sizeof out);
+      simd::least(first, second) + (simd::dot(spreadVector(pose.shift), block.direction) - block.height);
+  return {block.isHeld ? apart : PairDoubles{} + kBeyondAll};
+}
+/// The least of all lanes. Goes through memory, like simd::notNegative().
+NEARFIT_INLINE double leastOf(const PairDoubles& lanes) {
+  double numbers[SeparatedPairs::kLanes];
+  __builtin_memcpy(numbers, &lanes, sizeof numbers);
+  double least = numbers[0];
+  for (std::size_t i = 1; i < SeparatedPairs::kLanes; ++i)
+    least = numbers[i] < least ? numbers[i] : least;
+  return least;
 }
 
-void separatePortable(const SeparatedPairs& pairs, const SeparationPose& pose,
-                      SeparatedPairs::Numbers& out) noexcept {
-  separate(pairs, pose, out);
+NEARFIT_INLINE std::size_t scanBlocks(const SeparatedPairs* blocks, const std::uint8_t* held,
+                                      std::size_t first, std::size_t end, const SeparationScan& scan,
+                                      SeparationsFound& found, double& lowest) {
+  constexpr PairBits kLaneBits{1, 2, 4, 8, 16, 32, 64, 128};
+  PairDoubles lowestLanes = PairDoubles{} + kBeyondAll;
+  std::size_t at = first;
+  for (; at < end; ++at) {
+    if (held[at] == 0) continue;
+    const SeparatedPairs& pairs = blocks[at];
+    const Block block{loadVectors(pairs.direction), loadVectors(pairs.ends[0]), loadVectors(pairs.ends[1]),
+                      loadNumbers(pairs.height).value,
+                      ((PairBits{} + static_cast<std::int64_t>(held[at])) & kLaneBits) != 0};
+    const PairDoubles apart = apartIn(block, scan.pose).value;
+    PairDoubles atStart = PairDoubles{} + kBeyondAll, nearest = apart;
+    if (scan.isOfWay) {
+      atStart = apartIn(block, scan.start).value;
+      nearest = simd::least(apart, atStart);
+    }
+    const bool matters = leastOf(apart) <= scan.near || (scan.isOfWay && leastOf(nearest) <= scan.nearOnWay);
+    if (matters) {
+      __builtin_memcpy(&found.apart, &apart, sizeof apart);
+      __builtin_memcpy(&found.atStart, &atStart, sizeof atStart);
+      break;
+    }
+    lowestLanes = simd::least(lowestLanes, apart);
+  }
+  const double least = leastOf(lowestLanes);
+  lowest = least < lowest ? least : lowest;
+  return at;
+}
+
+std::size_t scanPortable(const SeparatedPairs* blocks, const std::uint8_t* held, std::size_t first,
+                         std::size_t end, const SeparationScan& scan, SeparationsFound& found,
+                         double& lowest) noexcept {
+  return scanBlocks(blocks, held, first, end, scan, found, lowest);
 }
 
 #if defined(__x86_64__)
-NEARFIT_AVX2 void separateAvx2(const SeparatedPairs& pairs, const SeparationPose& pose,
-                               SeparatedPairs::Numbers& out) noexcept {
-  separate(pairs, pose, out);
+NEARFIT_AVX2 std::size_t scanAvx2(const SeparatedPairs* blocks, const std::uint8_t* held, std::size_t first,
+                                  std::size_t end, const SeparationScan& scan, SeparationsFound& found,
+                                  double& lowest) noexcept {
+  return scanBlocks(blocks, held, first, end, scan, found, lowest);
 }
-NEARFIT_AVX512 void separateAvx512(const SeparatedPairs& pairs, const SeparationPose& pose,
-                                   SeparatedPairs::Numbers& out) noexcept {
-  separate(pairs, pose, out);
+NEARFIT_AVX512 std::size_t scanAvx512(const SeparatedPairs* blocks, const std::uint8_t* held,
+                                      std::size_t first, std::size_t end, const SeparationScan& scan,
+                                      SeparationsFound& found, double& lowest) noexcept {
+  return scanBlocks(blocks, held, first, end, scan, found, lowest);
 }
 #endif
 
@@ -129,11 +178,11 @@ SeparationPose separationPose(const RigidTransform& sceneFromPart, bool isOfPart
 
 SeparationKernel separationKernel(SimdLevel level) noexcept {
 #if defined(__x86_64__)
-  if (level == SimdLevel::Avx512) return separateAvx512;
-  if (level == SimdLevel::Avx2) return separateAvx2;
+  if (level == SimdLevel::Avx512) return scanAvx512;
+  if (level == SimdLevel::Avx2) return scanAvx2;
 #endif
   static_cast<void>(level);
-  return separatePortable;
+  return scanPortable;
 }
 
 }  // namespace nearfit

@@ -49,9 +49,9 @@ struct PairDirections {
 PairDirections directionsOf(const NormalConeTree& scene, const NormalConeTree& part, const LeafPair& pair,
                             const RigidTransform& sceneFromPart) noexcept;
 
-/// Four separations, one per lane, all of the scene or all of the part.
+/// Eight separations, one per lane, all of the scene or all of the part.
 struct alignas(64) SeparatedPairs {
-  static constexpr std::size_t kLanes = 4;
+  static constexpr std::size_t kLanes = 8;
   using Numbers = std::array<double, kLanes>;
   using Vectors = std::array<Numbers, 3>;
 
@@ -70,10 +70,30 @@ struct SeparationPose {
 /// @param sceneFromPart  Between the trees' centred frames.
 SeparationPose separationPose(const RigidTransform& sceneFromPart, bool isOfPart) noexcept;
 
-/// Finds how far four pairs are apart along their directions [m]: to some roundings of the coordinates, no more than
-/// their distances. Real-time safe.
-using SeparationKernel = void (*)(const SeparatedPairs& pairs, const SeparationPose& pose,
-                                  SeparatedPairs::Numbers& out) noexcept;
+/// What a block of pairs is looked at for: pairs that are near at one pose, or at either end of a way.
+struct SeparationScan {
+  SeparationPose pose{};
+  double near = 0.0;  ///< Pairs no farther apart at the pose are looked for [m].
+  bool isOfWay = false;
+  SeparationPose start{};  ///< Of the way, which ends at `pose`.
+  double nearOnWay = 0.0;  ///< Pairs no farther apart at either end are looked for too [m].
+};
+
+/// How far the pairs of a block are apart along their directions [m]: to some roundings of the coordinates, no more than
+/// their distances.
+struct SeparationsFound {
+  SeparatedPairs::Numbers apart{};    ///< At the pose.
+  SeparatedPairs::Numbers atStart{};  ///< At the way's start; infinity without one.
+};
+
+/// Looks at blocks in order until one has a pair that the scan looks for. Returns its number, with `found` filled, or
+/// `end`.
+/// @param held    A bit per lane; other pairs do not count.
+/// @param lowest  Lowered to how far the nearest pair of the blocks before is apart at the pose [m].
+/// Real-time safe.
+using SeparationKernel = std::size_t (*)(const SeparatedPairs* blocks, const std::uint8_t* held,
+                                         std::size_t first, std::size_t end, const SeparationScan& scan,
+                                         SeparationsFound& found, double& lowest) noexcept;
 
 /// Returns the kernel for an instruction set that the machine has.
 SeparationKernel separationKernel(SimdLevel level) noexcept;

@@ -55,6 +55,15 @@ struct Ringed {
   }
 };
 
+/// Holds pairs, with so much work at a time; returns how often it went on.
+int hold(ManyPairs& many, std::span<const LeafPair> pairs, double turn, std::uint64_t work = kUnbounded) {
+  many.beginHolding(pairs, turn);
+  for (int calls = 1;; ++calls) {
+    std::uint64_t left = work;
+    if (many.goOnHolding(left)) return calls;
+  }
+}
+
 struct Seen {
   ManyPairs::Found found;
   std::vector<ContactPair> contacts;
@@ -100,7 +109,7 @@ TEST(ManyPairs, FindTheLeastDistanceAndANearerContactForEachThatIsLeftOut) {
     const std::span<const LeafPair> near = bodies.near(pose);
     ASSERT_GT(near.size(), 2000U);
     if (step % 3 == 0) {
-      many.hold(near, turn);
+      hold(many, near, turn);
       turn = 0.0;
     }
     turn += 0.008;
@@ -137,8 +146,12 @@ TEST(ManyPairs, ALookInPartsFindsTheSame) {
   for (int step = 0; step < 4; ++step) {
     const RigidTransform pose = Ringed::poseAt(step);
     const std::span<const LeafPair> near = bodies.near(pose);
-    whole.hold(near, 0.0);
-    parts.hold(near, 0.0);
+    EXPECT_EQ(hold(whole, near, 0.0), 1);
+    // What is left half done, for other pairs, changes nothing.
+    parts.beginHolding(near.first(near.size() / 2), 0.0);
+    std::uint64_t some = 60U * static_cast<std::uint64_t>(step);
+    EXPECT_FALSE(parts.goOnHolding(some));
+    EXPECT_GT(hold(parts, near, 0.0, 50), 10);
     ManyPairs::Asked asked = bodies.asked(pose);
     if (step > 0) {
       asked.way = PartWay{Ringed::poseAt(step - 1), pose, 0.01, bendOf(0.01, 0.8)};
@@ -163,7 +176,7 @@ TEST(ManyPairs, NoBoundOnTheWayExceedsTheDistanceThere) {
   for (int step = 0; step + 1 < 8; ++step) {
     const RigidTransform from = Ringed::poseAt(step), to = Ringed::poseAt(step + 1);
     const std::span<const LeafPair> near = bodies.near(from);
-    many.hold(near, 0.008);
+    hold(many, near, 0.008);
     ManyPairs::Asked asked = bodies.asked(to);
     const double turn = 0.008, travel = glm::distance(from.translation, to.translation) + turn * 0.8;
     asked.way = PartWay{from, to, travel, bendOf(turn, 0.8)};
@@ -194,7 +207,8 @@ TEST(ManyPairs, AllocateNothingOnceMade) {
     std::uint64_t work = kUnbounded;
     test::resetAllocationCount();
     test::startCountingAllocations();
-    many.hold(near, 0.08);
+    many.beginHolding(near, 0.08);
+    EXPECT_TRUE(many.goOnHolding(work));
     many.begin(bodies.asked(pose));
     while (!many.goOn(work, out, count))
       count = 0;

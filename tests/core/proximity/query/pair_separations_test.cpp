@@ -83,10 +83,15 @@ TEST(PairSeparations, AreLowerBoundsAtEveryPose) {
       for (int move = 0; move < 4; ++move) {
         const double distance = sampledDistance(scene, part, pairs[k], there, random);
         for (const SimdLevel level : availableSimdLevels()) {
-          SeparatedPairs::Numbers apart{};
-          separationKernel(level)(block, separationPose(centredPose(scene, part, there), separation.isOfPart),
-                                  apart);
-          const double bound = apart[k % SeparatedPairs::kLanes];
+          // Every pair is looked for.
+          const SeparationScan scan{
+              .pose = separationPose(centredPose(scene, part, there), separation.isOfPart),
+              .near = std::numeric_limits<double>::infinity()};
+          const auto held = static_cast<std::uint8_t>(1U << k % SeparatedPairs::kLanes);
+          SeparationsFound found;
+          double lowest = std::numeric_limits<double>::infinity();
+          ASSERT_EQ(separationKernel(level)(&block, &held, 0, 1, scan, found, lowest), 0U);
+          const double bound = found.apart[k % SeparatedPairs::kLanes];
           ASSERT_LE(bound, distance + 1e-12) << i << ", pair " << k << ", move " << move;
           if (move == 0 && bound > 0.7 * distance) ++tight;
           ++compared;
@@ -100,6 +105,45 @@ TEST(PairSeparations, AreLowerBoundsAtEveryPose) {
   EXPECT_GT(compared, 1000U);
   EXPECT_GT(tight, compared / 16);
   EXPECT_GT(ofPart, 50U);
+}
+
+/// A pair at x = `height` and a point of the other body at the origin: apart by the point's place less the height.
+Separation atHeight(double height) {
+  return {.direction = {1.0, 0.0, 0.0}, .height = height, .ends = {glm::dvec3(0.0), glm::dvec3(0.0)}};
+}
+
+TEST(PairSeparations, AScanStopsAtTheFirstBlockWithAPairThatItLooksFor) {
+  constexpr std::size_t kBlocks = 6;
+  std::vector<SeparatedPairs> blocks(kBlocks);
+  std::vector<std::uint8_t> held(kBlocks, 0xFF);
+  for (std::size_t i = 0; i < kBlocks * SeparatedPairs::kLanes; ++i)
+    blocks[i / SeparatedPairs::kLanes].set(i % SeparatedPairs::kLanes,
+                                           atHeight(-1.0 - static_cast<double>(i)));
+  // In block 1 only among pairs that are not held, in block 3 among those that are.
+  blocks[1].set(2, atHeight(-0.1));
+  held[1] = 0xFB;
+  blocks[3].set(7, atHeight(-0.2));
+  held[0] = 0;
+  for (const SimdLevel level : availableSimdLevels()) {
+    SeparationsFound found;
+    double lowest = std::numeric_limits<double>::infinity();
+    SeparationScan scan{.near = 0.5};
+    EXPECT_EQ(separationKernel(level)(blocks.data(), held.data(), 0, kBlocks, scan, found, lowest), 3U);
+    EXPECT_EQ(found.apart[7], 0.2);
+    EXPECT_EQ(found.apart[0], 25.0);
+    EXPECT_EQ(lowest, 9.0);
+    lowest = 2.0;
+    EXPECT_EQ(separationKernel(level)(blocks.data(), held.data(), 4, kBlocks, scan, found, lowest), kBlocks);
+    EXPECT_EQ(lowest, 2.0);
+    // On a way that began 30 m nearer.
+    scan.isOfWay = true;
+    scan.start.shift = {-30.0, 0.0, 0.0};
+    scan.nearOnWay = 5.0;
+    lowest = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(separationKernel(level)(blocks.data(), held.data(), 4, kBlocks, scan, found, lowest), 4U);
+    EXPECT_EQ(found.atStart[0], 3.0);
+    EXPECT_EQ(lowest, std::numeric_limits<double>::infinity());
+  }
 }
 
 }  // namespace
