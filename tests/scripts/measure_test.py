@@ -108,6 +108,14 @@ class Measure(Tree):
         self.assertEqual((out.returncode, self.runs()), (0, 0))
         self.assertIn("left out", out.stdout)
 
+    def test_stops_a_part_that_takes_longer_than_its_minutes_times_the_factor(self):
+        self.write("nearfit-bench", BENCH.replace("echo run", "sleep 1; echo run"), 0o755)
+        out = self.measure("--parts", "program", "--time-factor", "0.001")
+        self.assertEqual(out.returncode, 1)
+        self.assertRegex(out.stdout, r"was stopped: the part has 0\.00\d+ minutes \(--time-factor\)")
+        self.assertEqual((self.results / "program.csv").read_text(), "old\n")
+        self.assertEqual(self.measure("--parts", "program").returncode, 0)
+
     def test_names_the_parts_where_one_is_misspelt(self):
         self.assertRegex(self.measure("--parts", "qery").stderr, "no part begins with.*query-paper")
 
