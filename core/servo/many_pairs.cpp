@@ -40,8 +40,8 @@ constexpr std::uint32_t kLooksOfClose = 16;
 /// Work of a test, of finding a separation after it, and of a passage; and pairs bounded in a unit of work.
 constexpr std::uint64_t kWorkOfExactTest = 2, kWorkOfSeparation = 2, kWorkOfOnePassage = 1;
 constexpr std::size_t kBoundedOfWork = 32, kBoundedOnWayOfWork = 16;
-/// Pairs that are to be held and are found, added and counted in a unit of work; slots swept; and pairs before it is asked
-/// again whether work is left.
+/// While pairs are taken over: pairs found, added and counted, and slots swept, in a unit of work; and pairs between two
+/// looks at how much work is left.
 constexpr std::size_t kFoundOfWork = 3, kAddedOfWork = 4, kCountedOfWork = 8, kSweptOfWork = 8,
                       kHeldAtOnce = 64;
 /// Blocks of pairs bounded before it is asked again whether work is left.
@@ -51,7 +51,7 @@ std::uint64_t hashOf(const LeafPair& pair) noexcept {
   return mixedBits(static_cast<std::uint64_t>(pair.scene) << 32U | pair.part);
 }
 
-/// Makes room and writes to it, so that the servo thread does not wait for the system to provide it at its first use.
+/// Reserves room and writes to it: the servo thread must not wait for the system to provide memory at its first use.
 template <class T>
 void makeRoom(std::vector<T>& of, std::size_t count) {
   of.resize(count);

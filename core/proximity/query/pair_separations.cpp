@@ -31,12 +31,13 @@ NEARFIT_INLINE PairVectors spreadVector(const glm::dvec3& v) {
   return {PairDoubles{} + v.x, PairDoubles{} + v.y, PairDoubles{} + v.z};
 }
 
-/// How far the pairs of a block are apart; infinity where none is held.
+/// A block in vectors.
 struct Block {
   PairVectors direction, first, second;
   PairDoubles height;
   PairBits isHeld;
 };
+/// How far the pairs of a block are apart; infinity for pairs that are not held.
 NEARFIT_INLINE simd::Lanes<PairDoubles> apartIn(const Block& block, const SeparationPose& pose) {
   // The direction in the other body's frame, once for both ends.
   const PairVectors there{simd::dot(spreadVector(pose.turn[0]), block.direction),

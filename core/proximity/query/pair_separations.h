@@ -70,26 +70,26 @@ struct SeparationPose {
 /// @param sceneFromPart  Between the trees' centred frames.
 SeparationPose separationPose(const RigidTransform& sceneFromPart, bool isOfPart) noexcept;
 
-/// What a block of pairs is looked at for: pairs that are near at one pose, or at either end of a way.
+/// Looks for blocks with a pair that is near at a pose or, if that ends a way, at either end of it.
 struct SeparationScan {
   SeparationPose pose{};
-  double near = 0.0;  ///< Pairs no farther apart at the pose are looked for [m].
+  double near = 0.0;  ///< A pair no farther apart than this at the pose is near [m].
   bool isOfWay = false;
-  SeparationPose start{};  ///< Of the way, which ends at `pose`.
-  double nearOnWay = 0.0;  ///< Pairs no farther apart at either end are looked for too [m].
+  SeparationPose start{};  ///< Pose at the start of the way.
+  double nearOnWay = 0.0;  ///< So is one no farther apart than this at either end [m].
 };
 
-/// How far the pairs of a block are apart along their directions [m]: to some roundings of the coordinates, no more than
-/// their distances.
+/// Separations of the pairs of a block [m]: to some roundings of the coordinates, no more than their distances. Infinity
+/// for pairs that are not held.
 struct SeparationsFound {
   SeparatedPairs::Numbers apart{};    ///< At the pose.
-  SeparatedPairs::Numbers atStart{};  ///< At the way's start; infinity without one.
+  SeparatedPairs::Numbers atStart{};  ///< At the way's start; infinity without a way.
 };
 
-/// Looks at blocks in order until one has a pair that the scan looks for. Returns its number, with `found` filled, or
-/// `end`.
-/// @param held    A bit per lane; other pairs do not count.
-/// @param lowest  Lowered to how far the nearest pair of the blocks before is apart at the pose [m].
+/// Bounds the pairs of blocks `first` to `end` in order until a block has a near one. Returns the block's index, with
+/// `found` filled, or `end`.
+/// @param held    For each block a bit per lane; pairs without theirs are passed over.
+/// @param lowest  Lowered to how far the nearest pair of the blocks passed is apart at the pose [m].
 /// Real-time safe.
 using SeparationKernel = std::size_t (*)(const SeparatedPairs* blocks, const std::uint8_t* held,
                                          std::size_t first, std::size_t end, const SeparationScan& scan,
