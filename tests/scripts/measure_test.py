@@ -116,6 +116,12 @@ class Measure(Tree):
         self.assertEqual((self.results / "program.csv").read_text(), "old\n")
         self.assertEqual(self.measure("--parts", "program").returncode, 0)
 
+    def test_refuses_a_time_factor_that_would_stop_every_part(self):
+        for factor in ("0", "-1", "nan", "inf", "half"):
+            out = self.measure("--parts", "program", "--time-factor", factor)
+            self.assertEqual((out.returncode, self.runs()), (2, 0), factor)
+            self.assertIn("--time-factor", out.stderr)
+
     def test_names_the_parts_where_one_is_misspelt(self):
         self.assertRegex(self.measure("--parts", "qery").stderr, "no part begins with.*query-paper")
 

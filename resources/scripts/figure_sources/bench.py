@@ -103,7 +103,7 @@ def million(results):
     rows = []
     for method, what in (("nearfit-tree", "hierarchy"), ("fcl", "FCL's hierarchy"),
                          ("nearfit-cache-write", "mesh and hierarchy to the cache"),
-                         ("nearfit-cache-query", "from the cache, and a first query; mapped at that revision, read whole since")):
+                         ("nearfit-cache-query", "from the cache, and a first query")):
         where = {"mesh": "organic-1m", "method": method}
         rows.append([what, n.time(1e6 * table.number("least_s", **where)), n.time(1e6 * table.number("median_s", **where)),
                      n.plain(table.number("bytes_per_triangle", **where))])
@@ -170,11 +170,12 @@ def _felt(table, scene, mode, way, quantity, column="max"):
 
 
 def smoothness(results):
+    """The lesser of both refined ways, slower and at the same speed, where a mode has both."""
     table = results.bench("feel")
     rows = []
     for scene, name in c.CONFORMING.items():
         for mode, words in MODES.items():
-            cells = [n.times(_felt(table, scene, mode, "x10", f"{kind} change ratio", p)) for kind in ("force", "torque")
+            cells = [n.times(c.refined(table, scene, mode, f"{kind} change ratio", p)) for kind in ("force", "torque")
                      for p in ("p50", "p99", "max")]
             rows.append([name if mode == "proxy" else "", words, *cells])
     return n.table(["", "mode", "force: median", "p99", "largest", "torque: median", "p99", "largest"], rows, right_from=2)
@@ -236,16 +237,25 @@ def skips(results):
     return n.table(["not computed", "where", "with the skip, p50", "without", "times, p50", "p99"], rows, right_from=2)
 
 
-def _window_goals(row):
-    """Goals of a row of window.csv and if they are met. Older files have a goal for one column only."""
+def _window_checks(row):
+    """(name, value, goal, unit) of each goal of a row of window.csv. Older files have a goal for one column only."""
     checks = [(row["goal_of"], row.get(row["goal_of"]), row["goal"], row["unit"]),
               ("p99.9", row["p999"], row.get("goal_p999"), row["unit"]),
               ("ticks left out", row.get("left_out"), row.get("goal_left_out"), "")]
+    # No ticks left out is a goal; a time of 0 is none.
+    return [check for check in checks if check[1] and check[2] and (not check[3] or float(check[2]) > 0)]
+
+
+def missed_of_window(row):
+    """Goals of a row of window.csv that are missed, a few words each."""
+    return [f"{name} {n.plain(float(value))} {unit}".rstrip() + f" ({n.plain(float(goal))})" for name, value, goal, unit in _window_checks(row)
+            if float(value) > float(goal)]
+
+
+def _window_goals(row):
+    """Goals of a row of window.csv and if they are met."""
     said = []
-    for name, value, goal, unit in checks:
-        # No ticks left out is a goal; a time of 0 is none.
-        if not value or not goal or (unit and float(goal) <= 0):
-            continue
+    for name, value, goal, unit in _window_checks(row):
         verdict = "met" if float(value) <= float(goal) else "**missed**"
         said.append(f"{verdict}: {n.beside_goal(value, goal, unit)}{name} {n.plain(float(goal))} {unit}" if unit else
                     f"{verdict}: {name} {n.count(float(goal))}")
@@ -311,7 +321,7 @@ def feel_million(results):
 
 
 def sources_note(results):
-    """The known stale files, and those of a busy machine, in a sentence."""
+    """The files of a busy machine, in a sentence."""
     notes = [f"`{table.file.rsplit('/', 1)[1]}` ({provenance.note(table)})"
              for table in map(results.table, provenance.result_files(results)) if provenance.note(table)]
     return f"Not to be repeated as they are, until measured anew: {', '.join(notes)}." if notes else "All can be repeated."

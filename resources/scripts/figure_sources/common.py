@@ -14,7 +14,7 @@ CONFORMING = {"cylinder-tube": "cylinder in a tube", "box-hole": "box in a hole"
               "round-peg": "round peg in its hole", "rectangular-peg": "rectangular peg in its hole",
               "gears": "two gears", "nut-bolt": "nut on its bolt, 0.02 mm margin"}
 MACHINES = {"A": "with AVX-512, AVX-VNNI and VP2INTERSECT", "B": "with AVX-512, without VP2INTERSECT",
-            "D": "without AVX-512", "C": "not described further by the files"}
+            "D": "without AVX-512", "E": "with AVX-512", "C": "not described further by the files"}
 
 
 # Scenes of tests/stress whose name does not say what they are.
@@ -42,13 +42,15 @@ def needs(*files, command="resources/scripts/measure"):
 
 
 def machine_letter(table):
-    """Processors of different kinds have one model name here: their vector instructions tell them apart."""
+    """Processors of different kinds have one model name here: maker and vector instructions tell them apart."""
     flags = table.head.get("vector instructions", "").split()
     if not flags:
         return "C"
     if "avx512_vp2intersect" in flags:
         return "A"
-    return "B" if any(flag.startswith("avx512") for flag in flags) else "D"
+    if not any(flag.startswith("avx512") for flag in flags):
+        return "D"
+    return "E" if "Intel" in provenance.machine(table) else "B"
 
 
 def pair_name(scene):
@@ -58,6 +60,13 @@ def pair_name(scene):
 def worst(table, columns, conditions):
     """The largest value of each column over all rows that fit one of the conditions."""
     return [max(value for where in conditions for value in table.numbers(column, **where)) for column in columns]
+
+
+def refined(table, scene, mode, quantity, column):
+    """The least value of a quantity of smoothness on the ways that are refined ten times."""
+    same = {"group": "smoothness", "scene": scene, "quantity": quantity}
+    slower = table.number(column, run=f"{mode} x10", **same)
+    return min([slower, *(float(row[column]) for row in table.where(**same) if row["run"] == f"{mode} x10 same speed")])
 
 
 def tick_rows(run, scenes, quantity="tick [us]"):

@@ -54,10 +54,10 @@ def _oracle(results):
 
 def round_trip(results):
     table = results.table("tests/usb/results/round_trip.csv")
-    rows = [[f"{row['scene']}, run {row['run']}", *(n.time(float(row[k])) for k in
+    rows = [[f"{n.count(float(row['rate']))} Hz, {row['scene']}, run {row['run']}", *(n.time(float(row[k])) for k in
                                                     ("servo_p50", "servo_p99", "p50", "p99", "p99_9", "max")), row["stopped_before"]]
             for row in table.where()]
-    return n.table(["scene", "to the wrench: p50", "p99", "as the device sees it: p50", "p99", "p99.9", "max", "runs stopped before"],
+    return n.table(["rate, scene", "to the wrench: p50", "p99", "as the device sees it: p50", "p99", "p99.9", "max", "runs stopped before"],
                    rows)
 
 
@@ -126,10 +126,15 @@ def ball_in_bowl(results):
 
 
 def nut_search(results):
+    """The worst of all runs of the nut: `feel`, its finer threads, and the evidence."""
     where = {"group": "cost", "scene": "nut-bolt", "run": "conforming"}
-    table = results.bench("feel")
-    tick, search = ({"quantity": q, **where} for q in ("tick [us]", "search beside [us]"))
-    return (f"ticks of {n.time(table.number('p50', **tick))} at the median and {n.time(table.number('max', **tick))} at most, and "
+    table, finer, evidence = results.bench("feel"), results.bench("dense"), results.evidence()
+    ticks = [(float(row["p50"]), float(row["max"])) for of, scene in ((table, where), (finer, {"scene": "nut-thread"}))
+             for row in of.where(quantity="tick [us]", **scene)]
+    ticks += [tuple(evidence.number(f"tick_us_{p}", scene=scene) for p in ("p50", "max")) for scene in ("nut-engaged", "nut-on")]
+    p50, longest = (max(column) for column in zip(*ticks))
+    search = {"quantity": "search beside [us]", **where}
+    return (f"ticks of up to {n.time(p50)} at the median and {n.time(longest)} at most, and "
             f"the search ahead {n.time(table.number('p50', **search))} at the median and {n.time(table.number('max', **search))} at most")
 
 

@@ -215,18 +215,6 @@ def front(results):
                     "on the front"], rows, right_from=2)
 
 
-# At this revision methods shared the hierarchies of the row, and "prepared in" left them out but for the baseline's and FCL's.
-SHARED_HIERARCHIES = "fd71b88bbf3f"
-
-
-@NEEDED
-def prepared(results):
-    if results.table(FILE).head.get("revision", "").startswith(SHARED_HIERARCHIES):
-        return ("*Prepared in* leaves out the hierarchies of the exact methods and of `grouped`, which share them, until they are measured anew "
-                "([built in](#5-results-and-appendix-a) has them).")
-    return "*Prepared in* is the time to build all that the method needs, hierarchies included."
-
-
 @NEEDED
 def front_verdict(results):
     """The holders of the fronts, with their rows."""
@@ -241,5 +229,5 @@ def front_verdict(results):
 FIGURES = {
     "appendix a": appendix, "appendix a, times": appendix_times, "appendix a, verdict": appendix_verdict,
     "appendix a in short": appendix_in_short, "built": built, "judged poses": judged_poses, "judged": judge, "judged, verdict": judge_verdict,
-    "grouped, judged": grouped_judged, "front on the paper's meshes": front, "fronts, verdict": front_verdict, "prepared": prepared,
+    "grouped, judged": grouped_judged, "front on the paper's meshes": front, "fronts, verdict": front_verdict,
 }

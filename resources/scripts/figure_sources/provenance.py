@@ -4,12 +4,6 @@ import pathlib
 import re
 import subprocess
 
-# Known faults of committed results, until `resources/scripts/measure` makes them anew. A file leaves this list as
-# soon as it is mended (the check fails where the list says more than there is), and none is added.
-KNOWN = {
-    "tests/stress/results/hand.csv": {"no load"},
-    "tests/stress/results/oracle.txt": {"no load"},
-}
 # A sequence of our own runs leaves a load of up to one a processor behind, twice as many say that others were at work.
 BUSY_LOAD_PER_PROCESSOR = 2.0
 
@@ -20,11 +14,8 @@ def result_files(results):
 
 
 def note(table):
-    """Words for a reader where a table stands on a known stale file, or on one of a busy machine; empty where it does not."""
-    reasons = set(KNOWN.get(table.file, ()))
-    if says_busy(table):
-        reasons.add("busy machine")
-    return ", ".join(sorted(reasons))
+    """Words for a reader where a table stands on a file of a busy machine; empty where it does not."""
+    return "busy machine" if says_busy(table) else ""
 
 
 def machine(table):
@@ -113,19 +104,7 @@ class History:
         return self._git("merge-base", "--is-ancestor", revision, "HEAD").returncode == 0
 
 
-def problems(results, history, known=None):
-    """Lines for what the list of known faults and the files disagree about; empty if all is well."""
-    known = KNOWN if known is None else known
-    lines = []
-    for file in result_files(results):
-        found, expected = faults(results.table(file), history.has), known.get(file, set())
-        lines += [f"{file}: {fault}; measure it anew with resources/scripts/measure at a clean committed revision"
-                  for fault in sorted(found - expected)]
-        mended = expected - found
-        if not history.is_there:
-            mended.discard("revision is not in the history")
-        lines += [f"{file}: no longer so: {fault}; take it off KNOWN in resources/scripts/figure_sources/provenance.py"
-                  for fault in sorted(mended)]
-    for file in sorted(set(known) - set(result_files(results))):
-        lines.append(f"{file}: there is no such file; take it off KNOWN in resources/scripts/figure_sources/provenance.py")
-    return lines
+def problems(results, history):
+    """A line for each fault of a result file; empty if all is well."""
+    return [f"{file}: {fault}; measure it anew with resources/scripts/measure at a clean committed revision"
+            for file in result_files(results) for fault in sorted(faults(results.table(file), history.has))]

@@ -10,7 +10,7 @@ HOUR = "tests/bench/results/window_hour.csv"
 UNITS = {"s": 1e6, "ms": 1e3, "us": 1.0}
 
 
-def _of_unit(value, unit):
+def of_unit(value, unit):
     if unit in UNITS:
         return n.time(UNITS[unit] * value)
     return n.plain(value) if unit in ("", "1", "x") else f"{n.plain(value)} {unit}"
@@ -23,7 +23,7 @@ def _met(text):
 def _goal(row):
     said = _met(row["met"])
     try:
-        return f"{said} ({_of_unit(float(row['goal']), row['unit'])})"
+        return f"{said} ({of_unit(float(row['goal']), row['unit'])})"
     except ValueError:
         return said
 
@@ -34,8 +34,8 @@ def checks(results):
     rows, last = [], ""
     for row in results.bench("check").where():
         name = f"`{row['scene']}` ({n.count(float(row['parts']))} parts, {n.count(float(row['triangles']))} triangles)"
-        rows.append(["" if name == last else name, f"`{row['method']}`", row["figure"], _of_unit(float(row["median"]), row["unit"]),
-                     _of_unit(float(row["worst"]), row["unit"]), _goal(row), row["remark"]])
+        rows.append(["" if name == last else name, f"`{row['method']}`", row["figure"], of_unit(float(row["median"]), row["unit"]),
+                     of_unit(float(row["worst"]), row["unit"]), _goal(row), row["remark"]])
         last = name
     return n.table(["scene", "method", "figure", "median", "worst", "goal", "remark"], rows, right_from=9)
 
@@ -166,7 +166,7 @@ def documents(results):
                 cells.append("-")
                 continue
             said = " **missed**" if _met(row["met"]) == "**missed**" else ""
-            cells.append(f"{_of_unit(float(row['median']), row['unit'])} ({_of_unit(float(row['max']), row['unit'])}){said}")
+            cells.append(f"{of_unit(float(row['median']), row['unit'])} ({of_unit(float(row['max']), row['unit'])}){said}")
         rows.append([f"`{document}`", n.count(float(first["placed_triangles"])), *cells])
     return n.table(["document", "triangles placed", "file to ready: median (max)", "from the cache", "OpenCASCADE alone",
                     "ratio to it", "memory a triangle"], rows)
@@ -183,7 +183,7 @@ def hour(results):
                                ("tick_p99_us", "tick, p99", "us"), ("overruns", "ticks left out", "")):
         values = table.numbers(column)
         worst = max(range(len(values)), key=values.__getitem__)
-        rows.append([what, *(_of_unit(v, unit) for v in (values[0], sorted(values)[len(values) // 2], values[worst], values[-1])),
+        rows.append([what, *(of_unit(v, unit) for v in (values[0], sorted(values)[len(values) // 2], values[worst], values[-1])),
                      f"{minutes[worst]:.0f}"])
     return n.table([f"{max(minutes):.0f} minutes, {n.count(sum(table.numbers('ticks')))} ticks, in contact in "
                     f"{n.plain(100 * sum(table.numbers('in_contact')) / len(minutes))} % of the snapshots shown", "first row", "median", "worst",

@@ -20,6 +20,19 @@ MEASURES = (
 )
 
 
+def missed_of_python(results):
+    """Goals of the package that are missed, a few words each."""
+    table = results.table(PYTHON)
+    return [f"{what}: {_value(value, unit)} ({_value(float(goal), unit)})" for name, what in MEASURES
+            for value, unit, goal in [(table.number("value", measure=name), table.text("unit", measure=name), table.text("goal", measure=name))]
+            if goal and value > float(goal)]
+
+
+def missed_of_sweeps(results):
+    speedup = results.table(SWEEP_COST).number("value", quantity="two workers over one")
+    return [] if speedup >= LEAST_SPEEDUP else [f"two workers over one: {n.times(speedup)} ({LEAST_SPEEDUP:g})"]
+
+
 def _value(value, unit):
     return n.time(UNITS[unit] * value) if unit in UNITS else n.times(value)
 
