@@ -45,6 +45,17 @@ NEARFIT_INLINE Floats8 load(const std::array<float, NormalConeTree::kWidth>& lan
 NEARFIT_INLINE Triple<Floats8> load(const std::array<std::array<float, NormalConeTree::kWidth>, 3>& lanes) {
   return {load(lanes[0]), load(lanes[1]), load(lanes[2])};
 }
+/// The numbers, or three coordinates of vectors, of as many lanes.
+template <class V, class T>
+NEARFIT_INLINE Lanes<V> lanesOf(const std::array<T, sizeof(V) / sizeof(T)>& numbers) {
+  Lanes<V> out;
+  __builtin_memcpy(&out.value, &numbers, sizeof out.value);
+  return out;
+}
+template <class V, class T>
+NEARFIT_INLINE Triple<V> lanesOf(const std::array<std::array<T, sizeof(V) / sizeof(T)>, 3>& vectors) {
+  return {lanesOf<V>(vectors[0]).value, lanesOf<V>(vectors[1]).value, lanesOf<V>(vectors[2]).value};
+}
 /// Bit per lane, set if the lane is at least 0. Goes through memory: where a variable indexes a vector, GCC
 /// 12 loses the variable under -fsanitize=undefined.
 NEARFIT_INLINE std::uint32_t notNegative(const Floats8& lanes) {

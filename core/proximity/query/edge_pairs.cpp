@@ -18,14 +18,6 @@ using Mask4 = std::int64_t __attribute__((vector_size(32)));
 using Vectors = simd::Triple<Doubles4>;
 static_assert(sizeof(Doubles4) == kLanes * sizeof(double));
 
-NEARFIT_INLINE simd::Lanes<Doubles4> load(const EdgePairs::Numbers& lanes) {
-  simd::Lanes<Doubles4> out;
-  __builtin_memcpy(&out.value, &lanes, sizeof lanes);
-  return out;
-}
-NEARFIT_INLINE Vectors load(const EdgePairs::Vectors& lanes) {
-  return {load(lanes[0]).value, load(lanes[1]).value, load(lanes[2]).value};
-}
 NEARFIT_INLINE void store(const Doubles4& from, EdgePairs::Numbers& to) {
   __builtin_memcpy(&to, &from, sizeof from);
 }
@@ -83,11 +75,14 @@ NEARFIT_INLINE simd::Lanes<Mask4> isInsideWall(const Vectors& x, const Vectors& 
 /// LeafTests::isPolarOfEdge with relaxation, four at a time.
 NEARFIT_INLINE simd::Lanes<Mask4> isPolar(const EdgePairs::Edges& edges, const Vectors& d,
                                           const EdgePairLimits& limits) {
-  const Vectors in0 = load(edges.inward[0]), in1 = load(edges.inward[1]);
+  const Vectors in0 = simd::lanesOf<Doubles4>(edges.inward[0]),
+                in1 = simd::lanesOf<Doubles4>(edges.inward[1]);
   const Doubles4 a0 = simd::dot(d, in0), a1 = simd::dot(d, in1);
   const Mask4 isOut0 = a0 > 0.0, isOut1 = a1 > 0.0;
-  const Mask4 isFar0 = a0 > limits.angularSlack * load(edges.depth[0]).value + limits.pointRounding;
-  const Mask4 isFar1 = a1 > limits.angularSlack * load(edges.depth[1]).value + limits.pointRounding;
+  const Mask4 isFar0 =
+      a0 > limits.angularSlack * simd::lanesOf<Doubles4>(edges.depth[0]).value + limits.pointRounding;
+  const Mask4 isFar1 =
+      a1 > limits.angularSlack * simd::lanesOf<Doubles4>(edges.depth[1]).value + limits.pointRounding;
   const Mask4 isOnArc = (isOut0 & isInsideWall(minus(d, times(in0, a0 / simd::dot(in0, in0))), in1).value) |
                         (isOut1 & isInsideWall(minus(d, times(in1, a1 / simd::dot(in1, in1))), in0).value);
   return {~((isOut0 & isFar0) | (isOut1 & isFar1)) & (~(isOut0 | isOut1) | isOnArc)};
@@ -98,10 +93,13 @@ NEARFIT_INLINE void test(const EdgePairs& pairs, const RigidTransform& sceneFrom
                          const RigidTransform& partFromScene, const EdgePairLimits& limits,
                          EdgePairHits& out) {
   const glm::dvec3& t0 = sceneFromPart.translation;
-  const Vectors aStart = load(pairs.scene.start), aAlong = load(pairs.scene.along);
-  const Vectors bStart = plus(turned(sceneFromPart, load(pairs.part.start)), spread(t0.x, t0.y, t0.z));
-  const Vectors bAlong = turned(sceneFromPart, load(pairs.part.along));
-  const Doubles4 aLength = load(pairs.scene.length).value, bLength = load(pairs.part.length).value;
+  const Vectors aStart = simd::lanesOf<Doubles4>(pairs.scene.start),
+                aAlong = simd::lanesOf<Doubles4>(pairs.scene.along);
+  const Vectors bStart =
+      plus(turned(sceneFromPart, simd::lanesOf<Doubles4>(pairs.part.start)), spread(t0.x, t0.y, t0.z));
+  const Vectors bAlong = turned(sceneFromPart, simd::lanesOf<Doubles4>(pairs.part.along));
+  const Doubles4 aLength = simd::lanesOf<Doubles4>(pairs.scene.length).value,
+                 bLength = simd::lanesOf<Doubles4>(pairs.part.length).value;
 
   const Vectors across = simd::cross(aAlong, bAlong);
   const Doubles4 sine = root(simd::dot(across, across)).value, square = sine * sine;

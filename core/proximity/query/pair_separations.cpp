@@ -19,14 +19,6 @@ static_assert(sizeof(PairDoubles) == SeparatedPairs::kLanes * sizeof(double));
 
 constexpr double kBeyondAll = std::numeric_limits<double>::infinity();
 
-NEARFIT_INLINE simd::Lanes<PairDoubles> loadNumbers(const SeparatedPairs::Numbers& lanes) {
-  simd::Lanes<PairDoubles> out;
-  __builtin_memcpy(&out.value, &lanes, sizeof out.value);
-  return out;
-}
-NEARFIT_INLINE PairVectors loadVectors(const SeparatedPairs::Vectors& lanes) {
-  return {loadNumbers(lanes[0]).value, loadNumbers(lanes[1]).value, loadNumbers(lanes[2]).value};
-}
 NEARFIT_INLINE PairVectors spreadVector(const glm::dvec3& v) {
   return {PairDoubles{} + v.x, PairDoubles{} + v.y, PairDoubles{} + v.z};
 }
@@ -67,8 +59,9 @@ NEARFIT_INLINE std::size_t scanBlocks(const SeparatedPairs* blocks, const std::u
   for (; at < end; ++at) {
     if (held[at] == 0) continue;
     const SeparatedPairs& pairs = blocks[at];
-    const Block block{loadVectors(pairs.direction), loadVectors(pairs.ends[0]), loadVectors(pairs.ends[1]),
-                      loadNumbers(pairs.height).value,
+    const Block block{simd::lanesOf<PairDoubles>(pairs.direction), simd::lanesOf<PairDoubles>(pairs.ends[0]),
+                      simd::lanesOf<PairDoubles>(pairs.ends[1]),
+                      simd::lanesOf<PairDoubles>(pairs.height).value,
                       ((PairBits{} + static_cast<std::int64_t>(held[at])) & kLaneBits) != 0};
     const PairDoubles apart = apartIn(block, scan.pose).value;
     PairDoubles atStart = PairDoubles{} + kBeyondAll, nearest = apart;
