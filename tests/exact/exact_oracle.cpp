@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
+#include "tests/exact/box_index.h"
 #include "tests/exact/exact_body.h"
 
 namespace nearfit::test {
@@ -251,24 +255,23 @@ class Candidate {
   double margin_ = std::numeric_limits<double>::infinity();
 };
 
-bool areApart(const Feature& a, const Feature& b, double gap) {
-  for (int k = 0; k < 3; ++k) {
-    if (a.lower[k] > b.upper[k] + gap || b.lower[k] > a.upper[k] + gap) return true;
-  }
-  return false;
+std::vector<Box> boxesOf(std::span<const Feature> features) {
+  std::vector<Box> boxes;
+  for (const Feature& feature : features)
+    boxes.push_back({feature.lower, feature.upper});
+  return boxes;
 }
 
 }  // namespace
 
 struct ExactOracle::Bodies {
   exact::Body scene, part;
-  std::vector<Feature> sceneFeatures;
+  std::vector<Feature> sceneFeatures = scene.features({});
+  BoxIndex sceneBoxes{boxesOf(sceneFeatures)};
 };
 
 ExactOracle::ExactOracle(const TriangleMesh& scene, const TriangleMesh& part)
-    : bodies_(std::make_unique<Bodies>(Bodies{exact::Body(scene), exact::Body(part), {}})) {
-  bodies_->sceneFeatures = bodies_->scene.features({});
-}
+    : bodies_(std::make_unique<Bodies>(Bodies{exact::Body(scene), exact::Body(part)})) {}
 ExactOracle::~ExactOracle() = default;
 
 double ExactOracle::size() const {
@@ -280,9 +283,11 @@ std::vector<ExactMinimum> ExactOracle::minima(const RigidTransform& sceneFromPar
   std::vector<ExactMinimum> found;
   // Boxes are rounded; those of features near each other are compared to more than the margin.
   const double gap = cutoff * (1.0 + 1e-9) + 1e-9 * size();
+  std::vector<std::uint32_t> near;
   for (const Feature& b : bodies_->part.features(sceneFromPart)) {
-    for (const Feature& a : bodies_->sceneFeatures) {
-      if (areApart(a, b, gap)) continue;
+    bodies_->sceneBoxes.findMeeting({b.lower - gap, b.upper + gap}, near);
+    for (const std::uint32_t i : near) {
+      const Feature& a = bodies_->sceneFeatures[i];
       Candidate candidate(a, b, size(), leastMargin);
       if (const auto minimum = candidate.evaluate(cutoff)) {
         found.push_back(*minimum);
