@@ -34,7 +34,7 @@ struct SpringParameters {
 /// @param twist         Of the moving part relative to the scene, in F.
 /// Minima at or beyond the cutoff, blocked and merged ones contribute nothing. NaN or infinity in any other input
 /// propagates to the wrench. Real-time safe. O(minima). Source: Johnson & Willemsen 2003, 4.3; rest
-/// length = cutoff.
+/// length = cutoff. Deviates in the torque: that of the forces, where the paper prints it without their -k.
 Wrench springWrench(std::span<const Lmd> lmds, const SpringParameters& parameters,
                     const glm::dvec3& centreOfMass, const Twist& twist) noexcept;
 

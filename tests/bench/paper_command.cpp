@@ -53,7 +53,8 @@ struct NamedRow {
 std::vector<PaperRow> chosenRows(const PaperOptions& options) {
   std::vector<NamedRow> all;
   for (const PaperRow& row : paperRows())
-    all.push_back({std::string(1, row.letter), row});
+    all.push_back({row.name, row});
+  all.push_back({scanRow().name, scanRow()});
   std::vector<PaperRow> rows;
   for (const NamedRow& named : chosen(all, options.rows, "--rows"))
     rows.push_back(named.row);
@@ -85,6 +86,7 @@ void runCutoff(const PaperRow& row, const BenchScene& meshes, const PaperOptions
 
 void runJudge(const PaperRow& row, const BenchScene& meshes, const PaperOptions& options,
               PaperResults& results) {
+  if (!row.printed) results.add(judgedTimes(row, meshes, options.run));
   const ErrorScene scene(meshes.scene, meshes.part, row.cutoffFraction * meshes.size());
   results.add(
       judgeFigures({"judge", meshes.name, ""}, scene, judgedMethods(), judgedPosesOf(row, meshes, options)));
@@ -96,19 +98,20 @@ void runArguments(const PaperRow& row, const BenchScene& meshes, const PaperOpti
       argumentFigures(row, meshes, options.arguments, options.samples.empty() ? nullptr : &results.samples));
 }
 
-/// A part of the command that goes through the rows of the appendix.
+/// A part of the command that goes through the rows.
 struct RowPart {
   std::string name;
+  bool isForScans;  ///< Not of the appendix's rows alone.
   void (*run)(const PaperRow&, const BenchScene&, const PaperOptions&, PaperResults&);
 };
 
 /// All parts; "triangles" has no rows and no function.
 std::vector<RowPart> allParts() {
-  return {{"appendix", runAppendix},
-          {"judge", runJudge},
-          {"arguments", runArguments},
-          {"cutoff", runCutoff},
-          {"triangles", nullptr}};
+  return {{"appendix", false, runAppendix},
+          {"judge", true, runJudge},
+          {"arguments", false, runArguments},
+          {"cutoff", false, runCutoff},
+          {"triangles", false, nullptr}};
 }
 
 void runTriangles(const PaperOptions& options, PaperResults& results) {
@@ -134,14 +137,14 @@ void printSearch(const PaperOptions& options) {
   for (const PaperRow& row : chosenRows(options)) {
     const std::optional<RigidTransform> pose = searchPose(row, paperScene(row, options.sharedFolder));
     if (!pose) {
-      throw Error(
-          fmt::format("row {}", row.letter),
-          fmt::format("no pose of {} has {} minima by the paper's rule", kMaxPoses, row.printedMinima),
-          "give it another region in tests/bench/paper_rows.cpp");
+      throw Error(fmt::format("row {}", row.name),
+                  fmt::format("no pose of {} has {} minima by the paper's rule", kMaxPoses,
+                              row.printed ? fmt::format("{}", row.printed->minima) : "any"),
+                  "give it another region in tests/bench/paper_rows.cpp");
     }
     const glm::dquat& q = pose->rotation;
     const glm::dvec3& t = pose->translation;
-    fmt::print("{}: {{{{{}, {}, {}, {}}}, {{{}, {}, {}}}}}\n", row.letter, q.w, q.x, q.y, q.z, t.x, t.y, t.z);
+    fmt::print("{}: {{{{{}, {}, {}, {}}}, {{{}, {}, {}}}}}\n", row.name, q.w, q.x, q.y, q.z, t.x, t.y, t.z);
   }
 }
 
@@ -172,8 +175,10 @@ void runPaper(const PaperOptions& options) {
       runTriangles(options, results);
       continue;
     }
-    for (const PaperRow& row : chosenRows(options))
-      part.run(row, paperScene(row, options.sharedFolder), options, results);
+    for (const PaperRow& row : chosenRows(options)) {
+      if (row.printed || part.isForScans)
+        part.run(row, paperScene(row, options.sharedFolder), options, results);
+    }
   }
   const std::string header = machine + fmt::format("# load at end: {}\n", loadAverages());
   std::string csv;
@@ -211,7 +216,9 @@ void addPaperCommand(CLI::App& program) {
   command->add_option("--part", o.parts, "appendix, judge, arguments, cutoff, triangles, with commas between")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--rows", o.rows, "Rows of the appendix, a to f, with commas between")
+  command
+      ->add_option("--rows", o.rows,
+                   "Rows of the appendix, a to f, and scan, which only judge takes; commas between")
       ->delimiter(',')
       ->capture_default_str();
   command->add_flag("--search", o.isSearch,

@@ -14,7 +14,8 @@ namespace {
 /// Margins of ExactMinimum: a sure minimum meets its conditions by so many times what is resolved, one that misses
 /// them by more than the other is none. As ExactJudge has them.
 constexpr double kSureMargin = 10.0, kLeastMargin = -2.0;
-/// What is parallel to this may be reported as one flat region [rad].
+/// What is tilted by no more than this may be reported as one flat region [rad], at its centroid; no sure minimum then
+/// has a place of its own.
 constexpr double kFlatAngle = 2e-6;
 
 bool isAtPlace(const Lmd& a, const glm::dvec3& scenePoint, const glm::dvec3& partPoint, double tolerance) {
@@ -22,9 +23,14 @@ bool isAtPlace(const Lmd& a, const glm::dvec3& scenePoint, const glm::dvec3& par
          glm::distance(a.partPoint, partPoint) <= tolerance;
 }
 
+/// False for a flat region, and for one so little tilted that it may be reported as such.
+bool isPoint(const test::ExactMinimum& e) {
+  return !e.isFlat && std::min(e.angle, e.tilt) > kFlatAngle;
+}
+
 bool isCloseCall(const Lmd& found, const test::ExactMinimum& e, double tolerance, double size) {
   // Anywhere in a flat region: at its distance and in its direction.
-  if (e.isFlat) {
+  if (e.isFlat || (found.isRegion && !isPoint(e))) {
     return std::abs(found.distance - e.distance) <= kFlatAngle * size &&
            glm::distance(found.direction, e.direction) <= kFlatAngle * size / e.distance;
   }
@@ -66,7 +72,7 @@ JudgedPose judgedPose(const test::ExactOracle& oracle, const ErrorScene& scene,
   const double cutoff = scene.bodies.cutoff, tolerance = kSamePlaceShare * oracle.size();
   JudgedPose truth{sceneFromPart, {}, {}, {}};
   for (const test::ExactMinimum& e : oracle.minima(sceneFromPart, cutoff + tolerance, kLeastMargin)) {
-    const bool isSure = e.margin > kSureMargin && e.isPromised && !e.isFlat &&
+    const bool isSure = e.margin > kSureMargin && e.isPromised && isPoint(e) &&
                         e.distance <= cutoff - tolerance && e.distance > tolerance;
     if (!isSure) {
       truth.closeCalls.push_back(e);
@@ -108,7 +114,10 @@ Judgement judge(const ContactAnswer& answer, const JudgedPose& truth, double siz
 std::vector<PaperFigure> judgeFigures(const FigureHead& head, const ErrorScene& scene,
                                       std::span<const ErrorMethodEntry> methods,
                                       std::span<const RigidTransform> poses) {
-  const test::ExactOracle oracle(scene.bodies.meshes.scene, scene.bodies.meshes.part);
+  // The meshes that are searched: merging flats moves vertices by up to the rounding of the file's numbers, which says
+  // nothing of how a method searches.
+  const NormalConeTree &sceneTree = scene.bodies.sceneTree, &partTree = scene.bodies.partTree;
+  const test::ExactOracle oracle(sceneTree.mesh(), partTree.mesh());
   std::vector<std::optional<JudgedPose>> truths(poses.size());
   parallelFor(poses.size(), [&](std::size_t i) { truths[i] = judgedPose(oracle, scene, poses[i]); });
   std::vector<double> minima, known;
@@ -117,7 +126,9 @@ std::vector<PaperFigure> judgeFigures(const FigureHead& head, const ErrorScene& 
     known.push_back(truth->isWrenchKnown() ? 1.0 : 0.0);
   }
   std::vector<PaperFigure> figures{paperFigure(head, "oracle", "minima", minima),
-                                   paperFigure(head, "oracle", "wrench known [share]", known)};
+                                   paperFigure(head, "oracle", "wrench known [share]", known),
+                                   paperFigure(head, "oracle", "searched meshes off the files by up to [m]",
+                                               std::max(sceneTree.deviation(), partTree.deviation()))};
   ContactAnswer answer;
   for (const ErrorMethodEntry& entry : methods) {
     const std::unique_ptr<ErrorMethod> method = entry.make(scene);

@@ -3,6 +3,7 @@
 #include <random>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/bench/portable_random.h"
@@ -78,6 +79,27 @@ TEST_F(JudgedStars, NoAnswerMissesAllAndLosesAllOfTheForce) {
   EXPECT_EQ(judgement.missed, truth_.minima.size());
   EXPECT_NEAR(judgement.force.value(), 1.0, 1e-12);
   EXPECT_NEAR(judgement.torque.value(), 1.0, 1e-12);
+}
+
+TEST(JudgedPoses, AFaceTiltedWithinTheFlatToleranceHasNoMinimumOfItsOwn) {
+  const ErrorScene scene(test::boxMesh({1.0, 1.0, 1.0}), test::boxMesh({0.5, 0.5, 0.5}), 0.4);
+  const test::ExactOracle oracle(scene.bodies.meshes.scene, scene.bodies.meshes.part);
+  // One corner is nearest, by far more than double precision resolves.
+  const glm::dvec3 axis = glm::normalize(glm::dvec3(2.0, 1.0, 0.0));
+  for (const double tilt : {3e-7, 3e-4}) {
+    const RigidTransform pose{glm::angleAxis(tilt, axis), {0.1, 0.05, 0.85}};
+    const JudgedPose truth = judgedPose(oracle, scene, pose);
+    const bool isPoint = tilt > 1e-6;
+    EXPECT_EQ(truth.minima.size(), isPoint ? 1U : 0U) << tilt;
+    EXPECT_EQ(truth.isWrenchKnown(), isPoint) << tilt;
+    ContactAnswer answer;
+    chosen(allErrorMethods(), {"exact cold"}, "test").front().make(scene)->answer(pose, answer);
+    ASSERT_EQ(answer.minima.size(), 1U) << tilt;
+    EXPECT_EQ(answer.minima.front().isRegion, !isPoint) << tilt;
+    const Judgement judgement = judge(answer, truth, oracle.size());
+    EXPECT_EQ(judgement.missed, 0U) << tilt;
+    EXPECT_EQ(judgement.spurious, 0U) << tilt;
+  }
 }
 
 TEST(JudgeFigures, SayThatTheStrictReadingMissesNoneOfClosedMeshesAndAddsSome) {

@@ -25,78 +25,72 @@ std::array<PaperRow, 6> makeRows() {
   // The bore's play is a sixth of the usual cutoff, at which all of the rim would be near.
   constexpr double kInBoreCutoff = 0.01;
   return {{
-      {'a',
+      {"a",
        "paper-gear-disc",
        "near a gap",
        512,
        6302,
-       3,
-       176.25,
+       PaperRow::Printed{3, 176.25},
        kUsual,
        kToothGap,
        {0.06, 0.05, 0.08},
        pi,
        {{0.9774314392493684, -0.07000502298998258, 0.12039569778710058, -0.158845693292067},
         {0.41944880255413486, 0.03210720424614384, -0.015557815813361908}}},
-      {'b',
+      {"b",
        "paper-gear-disc",
        "near a face",
        512,
        6302,
-       1,
-       1506.76,
+       PaperRow::Printed{1, 1506.76},
        kUsual,
        kGearFace,
        {0.05, 0.05, 0.03},
        0.3,
        {{0.9934686572433363, 0.037447936309525726, -0.0922258448260271, 0.055785954212557054},
         {0.1848888724259062, -0.013669142773247612, -0.19402479932087643}}},
-      {'c',
+      {"c",
        "paper-gear-disc",
        "within the bore",
        512,
        6302,
-       10,
-       121.0,
+       PaperRow::Printed{10, 121.0},
        kInBoreCutoff,
        kGearBore,
        {0.008, 0.008, 0.1},
        0.1,
        {{0.9992496973129021, 0.034956189000347956, 0.015179483535880597, -0.006905834506359612},
         {-0.0027205125411778664, -0.006076303094827624, -0.048037181012472834}}},
-      {'d',
+      {"d",
        "paper-bunny-sphere",
        "",
        128,
        2204,
-       2,
-       337.0,
+       PaperRow::Printed{2, 337.0},
        kUsual,
        {0.0, 0.0, 0.0},
        {0.8, 0.8, 0.8},
        pi,
        {{0.14661137896920548, 0.5507987707233546, 0.6142099439082508, 0.5457764767105787},
         {0.12907186771233548, 0.34384310794551215, -0.36761275479997785}}},
-      {'e',
+      {"e",
        "paper-spring-teapot",
        "",
        5648,
        23578,
-       2,
-       181.0,
+       PaperRow::Printed{2, 181.0},
        kUsual,
        {0.0, 0.0, 0.0},
        {0.8, 0.8, 0.8},
        pi,
        {{0.9544969092630927, -0.28395553683049224, -0.08857549332535145, -0.02143094241233672},
         {0.23973226413936022, -0.17591579216433342, 0.5711228459326396}}},
-      {'f',
+      {"f",
        "paper-crankshaft-disc",
        "",
        512,
        12802,
-       2,
-       318.0,
+       PaperRow::Printed{2, 318.0},
        kUsual,
        {0.0, 0.0, 0.0},
        {0.5, 0.3, 0.3},
@@ -104,6 +98,21 @@ std::array<PaperRow, 6> makeRows() {
        {{0.9544969092630927, -0.28395553683049224, -0.08857549332535145, -0.02143094241233672},
         {0.14983266508710014, -0.06596842206162502, 0.21417106722473983}}},
   }};
+}
+
+PaperRow makeScanRow() {
+  return {"scan",
+          "scan-bunny-armadillo",
+          "",
+          29170,
+          69666,
+          std::nullopt,
+          kUsualCutoffFraction,
+          {0.0, 0.0, 0.0},
+          {0.8, 0.8, 0.8},
+          pi,
+          {{0.36303586402552873, 0.2980327160593818, -0.46590108376628686, -0.7498784179684765},
+           {-0.5319812985328544, -0.06027173584818595, -0.0116682292660224}}};
 }
 
 double within(std::mt19937_64& random, double half) {
@@ -126,9 +135,14 @@ const std::array<PaperRow, 6>& paperRows() {
   return rows;
 }
 
+const PaperRow& scanRow() {
+  static const PaperRow row = makeScanRow();
+  return row;
+}
+
 BenchScene paperScene(const PaperRow& row, const std::filesystem::path& folder) {
   BenchScene meshes = chosen(sharedScenes(folder), {row.scene}, "row").front().make();
-  meshes.name = fmt::format("{} {}", row.letter, row.scene);
+  meshes.name = row.printed ? fmt::format("{} {}", row.name, row.scene) : row.scene;
   meshes.start = row.pose;
   meshes.range.reset();
   return meshes;
@@ -143,9 +157,8 @@ std::optional<RigidTransform> searchPose(const PaperRow& row, const BenchScene& 
   for (std::size_t i = 0; i < kMaxPoses; ++i) {
     const RigidTransform pose = randomPoseIn(row, partCentre, random);
     const auto found = query.find(pose, cutoff);
-    if (found.size() == row.printedMinima && !query.isTouching() &&
-        found.front().distance >= kMinGap * cutoff)
-      return pose;
+    const bool isWanted = row.printed ? found.size() == row.printed->minima : !found.empty();
+    if (isWanted && !query.isTouching() && found.front().distance >= kMinGap * cutoff) return pose;
   }
   return std::nullopt;
 }

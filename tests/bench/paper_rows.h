@@ -16,17 +16,23 @@
 ///
 /// The paper's meshes, poses and cutoffs are not published; its counts of triangles and LMDs, its rates and its
 /// pictures are. So a row here has its counts of triangles, and a pose at which the paper's own rule, read
-/// strictly (PaperRule::NormalSpans), gives its count of LMDs: see searchPose().
+/// strictly (PaperRule::NormalSpans), gives its count of LMDs: see searchPose(). A pair of scans, of which the paper
+/// prints nothing, is judged beside them.
 namespace nearfit::bench {
 
 struct PaperRow {
-  char letter;
+  /// What the paper prints of a row.
+  struct Printed {
+    std::size_t minima;  ///< "# of LMDs".
+    double rate;         ///< "Rate (Hz)".
+  };
+
+  std::string name;           ///< A letter of the appendix, or "scan".
   std::string scene;          ///< Name of a scene of sharedScenes().
   std::string configuration;  ///< What of it: "near a gap".
   std::size_t partTriangles, sceneTriangles;
-  std::size_t printedMinima;  ///< "# of LMDs".
-  double printedRate;         ///< "Rate (Hz)".
-  double cutoffFraction;      ///< Of the larger body's diagonal.
+  std::optional<Printed> printed;  ///< None for the scans.
+  double cutoffFraction;           ///< Of the larger body's diagonal.
 
   /// Where poses are searched: a box for the middle of the part's bounding box, in the scene's frame, where the
   /// larger body's diagonal is 1; and how far the part may be turned from how its file has it [rad].
@@ -38,12 +44,15 @@ struct PaperRow {
 /// Rows a to f.
 const std::array<PaperRow, 6>& paperRows();
 
+/// The pair of scans: bunny and armadillo.
+const PaperRow& scanRow();
+
 /// The meshes of a row, its pose as the start. @param folder  Of shared models. Throws FileError.
 BenchScene paperScene(const PaperRow& row, const std::filesystem::path& folder);
 
 /// The first of up to kMaxPoses random poses in a row's region, in the order that kPoseSeed gives, at which
-/// PaperRule::NormalSpans gives as many minima as the paper prints, no two triangles meet, and the bodies are farther
-/// apart than kMinGap. None if no pose has that.
+/// PaperRule::NormalSpans gives as many minima as the paper prints, or any for the scans, no two triangles meet, and the
+/// bodies are farther apart than kMinGap. None if no pose has that.
 std::optional<RigidTransform> searchPose(const PaperRow& row, const BenchScene& meshes);
 
 constexpr std::uint64_t kPoseSeed = 2003;

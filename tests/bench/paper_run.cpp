@@ -200,9 +200,10 @@ std::vector<PaperFigure> buildFigures(const FigureHead& head, const BenchScene& 
 /// The counts at a row's pose itself.
 std::vector<PaperFigure> poseFigures(const FigureHead& head, const PaperRow& row,
                                      const PreparedScene& scene) {
+  const PaperRow::Printed& printed = row.printed.value();
   std::vector<PaperFigure> figures{
-      paperFigure(head, "printed", "minima at the pose", static_cast<double>(row.printedMinima)),
-      paperFigure(head, "printed", "loop [Hz]", row.printedRate)};
+      paperFigure(head, "printed", "minima at the pose", static_cast<double>(printed.minima)),
+      paperFigure(head, "printed", "loop [Hz]", printed.rate)};
   for (const MethodEntry& method : sweptMethods(true)) {
     if (method.kind == AnswerKind::Distance) continue;
     const Answer answer = method.make(scene)->query(row.pose);
@@ -282,6 +283,13 @@ std::vector<PaperFigure> appendixFigures(const PaperRow& row, BenchScene meshes,
   append(loopFigures(head, scene, path, options));
   append(tickFigures(head, scene, path, options.clock));
   return figures;
+}
+
+std::vector<PaperFigure> judgedTimes(const PaperRow& row, BenchScene meshes, const PaperRunOptions& options) {
+  meshes.range = kRowRange * meshes.size();
+  const FigureHead head{"judge", meshes.name, ""};
+  const PreparedScene scene(std::move(meshes), row.cutoffFraction);
+  return loopFigures(head, scene, pathOfRow(scene, options.poses, options.seed), options);
 }
 
 std::span<const double> sweptCutoffs() {

@@ -36,6 +36,9 @@ std::vector<RigidTransform> pathOfRow(const PreparedScene& scene, std::size_t po
 std::vector<PaperFigure> appendixFigures(const PaperRow& row, BenchScene meshes,
                                          const PaperRunOptions& options);
 
+/// Times of the judged methods on a hand's path, as appendixFigures() has them, for a pair that the appendix has not.
+std::vector<PaperFigure> judgedTimes(const PaperRow& row, BenchScene meshes, const PaperRunOptions& options);
+
 /// Cutoffs of the sweep, as fractions of the larger body's diagonal.
 std::span<const double> sweptCutoffs();
 /// Times and counts on one path at each cutoff. The path keeps the bodies near by the smallest.
