@@ -14,8 +14,8 @@ namespace {
 /// Margins of ExactMinimum: a sure minimum meets its conditions by so many times what is resolved, one that misses
 /// them by more than the other is none. As ExactJudge has them.
 constexpr double kSureMargin = 10.0, kLeastMargin = -2.0;
-/// What is tilted by no more than this may be reported as one flat region [rad], at its centroid; no sure minimum then
-/// has a place of its own.
+/// Features tilted against each other by no more than this may be reported as one flat region, at its centroid [rad].
+/// A minimum there has no sure place.
 constexpr double kFlatAngle = 2e-6;
 
 bool isAtPlace(const Lmd& a, const glm::dvec3& scenePoint, const glm::dvec3& partPoint, double tolerance) {

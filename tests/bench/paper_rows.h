@@ -21,7 +21,7 @@
 namespace nearfit::bench {
 
 struct PaperRow {
-  /// What the paper prints of a row.
+  /// Figures that the paper prints for a row.
   struct Printed {
     std::size_t minima;  ///< "# of LMDs".
     double rate;         ///< "Rate (Hz)".
