@@ -48,9 +48,9 @@ struct Level {
 /// more than a tick can look at still moves.
 constexpr std::array kLevels{Level{kContactReach, kMaxSlack, ContactFinder::kManyPairs / 2},
                              Level{kContactReach, kMinSlack, ContactFinder::kManyPairs / 2},
-                             Level{1.5, 1.0, ContactFinder::kMaxPairs},
-                             Level{1.5, kMinSlack, ContactFinder::kMaxPairs},
-                             Level{1.5, 0.0, ContactFinder::kMaxPairs},
+                             Level{kReachOfThousands, 1.0, ContactFinder::kMaxPairs},
+                             Level{kReachOfThousands, kMinSlack, ContactFinder::kMaxPairs},
+                             Level{kReachOfThousands, 0.0, ContactFinder::kMaxPairs},
                              Level{1.1, 0.0, ContactFinder::kMaxPairs},
                              Level{0.75, 0.0, ContactFinder::kMaxPairs},
                              Level{0.5, 0.0, ContactFinder::kMaxPairs}};
@@ -75,19 +75,12 @@ constexpr std::uint64_t kWorkOfPassage = 1;
 constexpr double kBendOfShift = 0.25;
 /// A pair that stays this far apart on a way is clear, as a share of the reach.
 constexpr double kClearOnWay = 0.1;
-/// With fewer pairs than this, testing all of them costs less than bounding them.
-constexpr std::size_t kFewPairs = 1024;
-/// Size of the cells that contacts of thousands are grouped by, as a share of the part's least gyration.
-constexpr double kCellOfGyration = 0.2;
-/// Where pairs are thousands, contacts beyond this share of the reach are left out: a step seldom meets them.
-constexpr double kNeeded = 1.45 / kContactReach;
-/// There, a look finds all contacts within this share of the reach, those that may be nearer than the margin. Of what is
-/// farther it finds what was nearest before, which is nearly all; the rest it finds once it comes near.
-constexpr double kSure = 0.98 / kContactReach;
 /// Pairs tested before it is asked again whether work is left.
 constexpr std::size_t kChunk = 64;
 /// After a tick in which nothing could be seen, surfaces may use all the work for this many ticks.
 constexpr unsigned kGenerousTicks = 16;
+/// After this many gatherings of few pairs it is no longer crowded.
+constexpr unsigned kSparseGatherings = 64;
 /// After this many gatherings with less room, more room is tried.
 constexpr unsigned kGatheringsBetweenTries = 16;
 
@@ -176,9 +169,33 @@ void ContactFinder::allow(std::uint64_t work, Excess excess) noexcept {
   excess_ = excess;
 }
 
-bool ContactFinder::holdsFor(const ServoScene& scene, const RigidTransform& worldFromPart,
+bool ContactFinder::holdsFor(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                              double reach) const noexcept {
-  return isHoldingPairs_ && reach == askedReach_ && spentOfHeld(scene, worldFromPart) <= 1.0;
+  return isHoldingPairs_ && reach == askedReach_ && arePreparedCurrent(tracked) &&
+         spentOfHeld(*tracked.scene, worldFromPart) <= 1.0;
+}
+
+bool ContactFinder::arePreparedCurrent(const TrackedScene& tracked) const noexcept {
+  return std::ranges::all_of(std::span(bodies_).first(bodyCount_), [&](const HeldBody& held) {
+    if (held.prepared == nullptr) return true;
+    const auto near = std::ranges::find(tracked.near, held.body, &TrackedScene::Near::body);
+    if (near == tracked.near.end()) return false;
+    const auto isStill = [&](const std::shared_ptr<PreparedPairs>& of) {
+      return of && of->isStill(held.prepared, held.preparedSerial, this);
+    };
+    return isStill(near->prepared) || isStill(near->formerPrepared);
+  });
+}
+
+void ContactFinder::noteCrowd() noexcept {
+  std::size_t most = isHoldingPrepared() ? ManyPairs::kFew : 0;
+  for (const HeldBody& held : std::span(bodies_).first(bodyCount_))
+    most = std::max(most, held.count);
+  sparseGatherings_ = most < ManyPairs::kFew / 2 ? sparseGatherings_ + 1 : 0;
+  if (tickLevel_ >= kLevelOfThousands && most >= ManyPairs::kFew)
+    isCrowded_ = true;
+  else if (sparseGatherings_ >= kSparseGatherings)
+    isCrowded_ = false;
 }
 
 double ContactFinder::spentOfHeld(const ServoScene& scene,
@@ -221,6 +238,22 @@ ContactFinder::Gathered ContactFinder::gatherFeatures(const ServoScene::Body& ot
     return nearby.count < most ? Gathered::NoWork : Gathered::TooMany;
   };
   bool isSearchHopeless = false, mayStepLess = false;
+  if (known != nullptr && known->contacts && known->prepared && known->prepared->reach() >= pairsReach_) {
+    const Stretch way = gathering.stretch.value_or(Stretch{worldFromPart, worldFromPart});
+    const std::optional<MotionBudget> left =
+        known->contacts->roomAlong(poseAt(way.from), poseAt(way.to), within);
+    ManyPairs* const prepared = left ? known->prepared->claim(this) : nullptr;
+    if (prepared != nullptr) {
+      bodies_[bodyCount_++] = {.body = body,
+                               .first = pairCount_,
+                               .prepared = prepared,
+                               .preparedSerial = known->prepared->serial()};
+      holds_ = {std::min(holds_.travel, left->travel), std::min(holds_.turn, left->turn)};
+      return Gathered::Held;
+    }
+  }
+  // A pass over thousands begins early in a tick.
+  if (known != nullptr && known->prepared && workDone_ > kUsualWork) return Gathered::NoWork;
   if (known != nullptr && known->contacts) {
     const std::size_t most =
         std::min(room.size(), gathering.mostListed - std::min(gathering.mostListed, pairCount_));
@@ -342,7 +375,7 @@ ContactFinder::Gathered ContactFinder::gatherPairs(const TrackedScene& tracked,
                                                    const RigidTransform& worldFromPart, double reach,
                                                    double way, const Step* step) noexcept {
   // A pass over a long list begins early in a tick.
-  if (isAmongThousands() && workDone_ > kUsualWork) return Gathered::Postponed;
+  if (isHoldingMany() && workDone_ > kUsualWork) return Gathered::Postponed;
   const ServoScene& scene = *tracked.scene;
   const double radius = scene.metric.radius;
   const double stepTravel = step != nullptr ? motionOf(scene, step->from, worldFromPart).travel : 0.0;
@@ -367,7 +400,13 @@ ContactFinder::Gathered ContactFinder::gatherPairs(const TrackedScene& tracked,
   };
   // Where pairs were many, they most likely still are. Now and then more room is tried, and after a success
   // tried again at once.
-  const bool isTry = roomLevel_ > 0 && ++gatherings_ % kGatheringsBetweenTries == 0;
+  const bool isListNear = std::ranges::any_of(tracked.near, [&](const TrackedScene::Near& near) {
+    return near.contacts && near.contacts->cutoff() < tracked.reach.contact;
+  });
+  const std::size_t lowest = isListNear ? kLevelOfThousands : 0;
+  roomLevel_ = std::max(roomLevel_, lowest);
+  tickLevel_ = std::max(tickLevel_, lowest);
+  const bool isTry = roomLevel_ > lowest && ++gatherings_ % kGatheringsBetweenTries == 0;
   if (isTry) --roomLevel_;
   // A failure with little work, or after other poses have used it up, says nothing about later ticks.
   const bool isFirst = excess_ == Excess::ToGather && std::exchange(isFirstGathering_, false);
@@ -429,7 +468,7 @@ ContactFinder::Gathered ContactFinder::gatherWithin(const TrackedScene& tracked,
   });
   // Lists of triangles are held as far as they serve.
   if (isSurfaceNear_ && listedTravel_ > 0.0) {
-    const MotionBudget most = pairCount_ == 0 ? left : holds_;
+    const MotionBudget most = pairCount_ == 0 && !isHoldingPrepared() ? left : holds_;
     holds_.travel = std::min(listedTravel_, most.travel);
     holds_.turn = std::min(holds_.travel / scene.metric.radius, most.turn);
   }
@@ -444,7 +483,7 @@ ContactFinder::Gathered ContactFinder::gatherWithin(const TrackedScene& tracked,
 }
 
 std::size_t ContactFinder::manyFor(const HeldBody& held) noexcept {
-  if (held.count < kFewPairs) return kMaxMany;
+  if (held.count < ManyPairs::kFew) return kMaxMany;
   std::size_t place = kMaxMany;
   for (std::size_t i = 0; i < many_.size(); ++i) {
     if (many_[i].body == held.body) return i;
@@ -461,12 +500,12 @@ bool ContactFinder::arrangePairs(const ServoScene& scene) noexcept {
   const std::span<HeldBody> bodies = std::span(bodies_).first(bodyCount_);
   for (ManyOfBody& many : many_) {
     many.isHeld = many.body && std::ranges::any_of(bodies, [&](const HeldBody& held) {
-                    return held.body == *many.body && held.count >= kFewPairs;
+                    return held.body == *many.body && held.count >= ManyPairs::kFew;
                   });
   }
   for (; arranging_.bodies < bodies.size(); ++arranging_.bodies) {
     HeldBody& held = bodies[arranging_.bodies];
-    if (scene.bodies[held.body].surface) continue;
+    if (scene.bodies[held.body].surface || held.prepared != nullptr) continue;
     const std::span<LeafPair> pairs = std::span(pairs_).subspan(held.first, held.count);
     if (!arranging_.isHolding) held.many = manyFor(held);
     if (held.many < kMaxMany) {
@@ -544,18 +583,11 @@ void ContactFinder::takeContacts(const ServoScene::Body& other, std::uint32_t bo
 
 bool ContactFinder::testMany(const ServoScene& scene, const HeldBody& held) noexcept {
   const ServoScene::Body& other = scene.bodies[held.body];
-  ManyPairs& many = many_[held.many].pairs;
+  ManyPairs& many = held.prepared != nullptr ? *held.prepared : many_[held.many].pairs;
   Surroundings& around = look_.around;
   if (look_.pair == 0) {
-    ManyPairs::Asked asked{
-        .scene = &other.geometry->tree(),
-        .part = &scene.moving.geometry->tree(),
-        .sceneFromPart = (other.worldFromPart.inverse() * look_.pose).normalized(),
-        .reach = {pairsReach_, contactTurn(pairsReach_, scene.metric.radius)},
-        .need = std::min(kNeeded * askedReach_, pairsReach_),
-        .sure = std::min(kSure * askedReach_, pairsReach_),
-        .cell = kCellOfGyration *
-                std::min({scene.metric.gyration.x, scene.metric.gyration.y, scene.metric.gyration.z})};
+    ManyPairs::Asked asked = askedAmongThousands(
+        scene, other, (other.worldFromPart.inverse() * look_.pose).normalized(), pairsReach_, askedReach_);
     if (look_.from) {
       const MotionBudget motion = motionOf(scene, *look_.from, look_.pose);
       const double near = scene.metric.radius + pairsReach_ + 2.0 * holds_.travel + stretchTravel_;
@@ -575,7 +607,7 @@ bool ContactFinder::testMany(const ServoScene& scene, const HeldBody& held) noex
     takeContacts(other, held.body, std::span(found_).first(count));
     if (found) {
       around.distance = std::min(around.distance, found->least);
-      around.completeTo = std::min(around.completeTo, kNeeded * askedReach_);
+      around.completeTo = std::min(around.completeTo, many.need());
       if (look_.from) around.onWay = std::min(around.onWay, found->leastOnWay);
       return true;
     }
@@ -632,7 +664,7 @@ bool ContactFinder::testBodies(const ServoScene& scene) noexcept {
     spend(kWorkOfBody);
     look_.around.deviation = std::max(look_.around.deviation, scene.deviation(scene.bodies[body.body]));
     if (scene.bodies[body.body].surface) continue;
-    if (body.many < kMaxMany) {
+    if (body.prepared != nullptr || body.many < kMaxMany) {
       if (!testMany(scene, body)) return false;
       continue;
     }
@@ -664,8 +696,8 @@ Surroundings ContactFinder::look(const TrackedScene& tracked, const RigidTransfo
                                  const Step* step) noexcept {
   const ServoScene& scene = *tracked.scene;
   const glm::dvec3 centre = worldFromPart.applyToPoint(scene.centreInPart);
-  const bool isSame =
-      look_.isPending && isHoldingPairs_ && reach == look_.reach && worldFromPart == look_.pose;
+  const bool isSame = look_.isPending && isHoldingPairs_ && reach == look_.reach &&
+                      worldFromPart == look_.pose && arePreparedCurrent(tracked);
   const Surroundings pending{.isPending = true};
   if (!isSame) {
     giveUpLook();
@@ -674,10 +706,11 @@ Surroundings ContactFinder::look(const TrackedScene& tracked, const RigidTransfo
       tickTravel_ = motionOf(scene, tickPose_, worldFromPart).travel;
       tickPose_ = worldFromPart;
     }
-    if (!holdsFor(scene, worldFromPart, reach)) {
+    if (!holdsFor(tracked, worldFromPart, reach)) {
       const Gathered outcome = gatherPairs(tracked, worldFromPart, reach, way, step);
       if (outcome == Gathered::Postponed) return pending;
       if (outcome != Gathered::Held) return {};
+      noteCrowd();
     }
     look_ = {.pose = worldFromPart,
              .reach = reach,

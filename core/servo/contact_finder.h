@@ -13,6 +13,7 @@
 #include "core/proximity/query/lmd_query.h"
 #include "core/proximity/surface/surface_contacts.h"
 #include "core/servo/many_pairs.h"
+#include "core/servo/prepared_pairs.h"
 #include "core/servo/tracked_scene.h"
 
 namespace nearfit {
@@ -106,9 +107,9 @@ class ContactFinder {
   /// Number of times since beginTick() that no list covered the pose of a near body.
   std::uint32_t lateBodies() const noexcept { return lateBodies_; }
   /// True if thousands of pairs of a body are held.
-  bool isAmongThousands() const noexcept {
-    return std::any_of(many_.begin(), many_.end(), [](const ManyOfBody& many) { return many.isHeld; });
-  }
+  bool isAmongThousands() const noexcept { return isCrowded_ || isHoldingMany(); }
+  /// True while so many pairs are near that lists are to serve long along the way and little aside.
+  bool isCrowded() const noexcept { return isCrowded_; }
   /// Work left of what was allowed.
   std::uint64_t workLeft() const noexcept { return allowed_ - std::min(allowed_, workDone_); }
   /// True if no work is left for contacts or surfaces.
@@ -133,7 +134,9 @@ class ContactFinder {
     std::size_t firstBlock = 0, blocks = 0;  ///< Range in edgePairs_, for its first pairs.
     std::size_t packed = 0;                  ///< Blocks of that range that are filled.
     std::size_t many = kMaxMany;             ///< Index in many_, if it holds the pairs.
-    RigidTransform testedPose{};             ///< Of the part, where triangles were tested last.
+    ManyPairs* prepared = nullptr;     ///< Those that were prepared beside the servo, in place of its pairs,
+    std::uint64_t preparedSerial = 0;  ///< and which they are.
+    RigidTransform testedPose{};       ///< Of the part, where triangles were tested last.
   };
 
   /// A way of the part, straight as to its centre of mass: worldFromPart at both ends.
@@ -170,7 +173,8 @@ class ContactFinder {
 
   Surroundings look(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
                     double way, std::span<BodyContact> out, const Step* step) noexcept;
-  bool holdsFor(const ServoScene& scene, const RigidTransform& worldFromPart, double reach) const noexcept;
+  bool holdsFor(const TrackedScene& tracked, const RigidTransform& worldFromPart,
+                double reach) const noexcept;
   /// Share of the motion for which the pairs are held that a pose spends; above 1 they do not serve.
   double spentOfHeld(const ServoScene& scene, const RigidTransform& worldFromPart) const noexcept;
   /// The way of a step and on, as far as all lists cover it; no value if they do not cover the step.
@@ -188,6 +192,17 @@ class ContactFinder {
   bool arrangePairs(const ServoScene& scene) noexcept;
   /// The same for a body of thousands.
   bool holdMany(const ServoScene& scene, ManyOfBody& many, std::span<const LeafPair> pairs) noexcept;
+  bool isHoldingMany() const noexcept {
+    return std::any_of(many_.begin(), many_.end(), [](const ManyOfBody& many) { return many.isHeld; });
+  }
+  bool isHoldingPrepared() const noexcept {
+    return std::any_of(bodies_.begin(), bodies_.begin() + static_cast<std::ptrdiff_t>(bodyCount_),
+                       [](const HeldBody& held) { return held.prepared != nullptr; });
+  }
+  /// Finds out whether it is crowded, after pairs were gathered.
+  void noteCrowd() noexcept;
+  /// True if the prepared pairs that are held are those of the tracked scene, or those before. Others may be gone.
+  bool arePreparedCurrent(const TrackedScene& tracked) const noexcept;
   /// Index in many_ for a body's pairs; kMaxMany if there are few of them, or no place.
   std::size_t manyFor(const HeldBody& held) noexcept;
   Gathered gatherOne(const TrackedScene& tracked, std::uint32_t body, const TrackedScene::Near* known,
@@ -257,6 +272,8 @@ class ContactFinder {
   std::size_t tickLevel_ = 0;  ///< The same for the rest of this tick, which has less work left.
   unsigned gatherings_ = 0;
   bool isSurfaceNear_ = false;  ///< An unsided surface was searched.
+  bool isCrowded_ = false;
+  unsigned sparseGatherings_ = 0;  ///< Gatherings of few pairs, one after the other.
   /// Travel for which the pairs taken from lists of triangles serve [m]; 0 if others were taken too.
   double listedTravel_ = 0.0;
 

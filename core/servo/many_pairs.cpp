@@ -44,8 +44,6 @@ constexpr std::size_t kBoundedOfWork = 32, kBoundedOnWayOfWork = 16;
 /// looks at how much work is left.
 constexpr std::size_t kFoundOfWork = 3, kAddedOfWork = 4, kCountedOfWork = 8, kSweptOfWork = 8,
                       kHeldAtOnce = 64;
-/// Blocks of pairs bounded before it is asked again whether work is left.
-constexpr std::size_t kBlocksAtOnce = 16;
 
 std::uint64_t hashOf(const LeafPair& pair) noexcept {
   return mixedBits(static_cast<std::uint64_t>(pair.scene) << 32U | pair.part);
@@ -68,6 +66,7 @@ ManyPairs::ManyPairs()
     : slots_(2 * kSlotsOfKind),
       separations_(2 * kSlotsOfKind / kLanes),
       held_(separations_.size()),
+      tested_(separations_.size()),
       table_(kTableSize),
       places_(2 * kSlotsOfKind),
       groups_(kMax + 1),
@@ -94,6 +93,25 @@ void ManyPairs::forget() noexcept {
   groupCount_ = 1;
   groups_[0] = {.least = kBeyondAll};
   turn_ = 0.0;
+  stage_ = Stage::Done;
+  holdingStage_ = HoldingStage::Done;
+}
+
+void ManyPairs::takeForLooks(const ManyPairs& from) noexcept {
+  used_ = from.used_;
+  for (std::size_t kind = 0; kind < used_.size(); ++kind) {
+    const std::size_t first = kind * kSlotsOfKind, blocks = (used_[kind] + kLanes - 1) / kLanes;
+    std::copy_n(&from.slots_[first], used_[kind], &slots_[first]);
+    std::copy_n(&from.separations_[first / kLanes], blocks, &separations_[first / kLanes]);
+    std::copy_n(&from.held_[first / kLanes], blocks, &held_[first / kLanes]);
+    std::copy_n(&from.tested_[first / kLanes], blocks, &tested_[first / kLanes]);
+  }
+  groupCount_ = from.groupCount_;
+  std::copy_n(from.groups_.begin(), groupCount_, groups_.begin());
+  groupTable_ = from.groupTable_;
+  new_ = from.new_;
+  turn_ = from.turn_;
+  look_ = from.look_;
   stage_ = Stage::Done;
   holdingStage_ = HoldingStage::Done;
 }
@@ -127,6 +145,11 @@ std::uint32_t ManyPairs::findNear(const LeafPair& pair, std::size_t& next) const
 void ManyPairs::setHeld(std::uint32_t slot) noexcept {
   std::uint8_t& lanes = held_[slot / kLanes];
   lanes = static_cast<std::uint8_t>(lanes | 1U << slot % kLanes);
+}
+
+void ManyPairs::setTested(std::uint32_t slot, bool isTested) noexcept {
+  const unsigned bit = 1U << slot % kLanes, lanes = tested_[slot / kLanes];
+  tested_[slot / kLanes] = static_cast<std::uint8_t>(isTested ? lanes | bit : lanes & ~bit);
 }
 
 void ManyPairs::insert(std::uint32_t slot) noexcept {
@@ -313,8 +336,8 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
   const auto know = [&](std::uint32_t at, const glm::dvec3& apart, std::uint64_t key) {
     Slot& slot = slots_[at];
     separations_[at / kLanes].set(at % kLanes, separationAlong(scene, part, slot.pair, pose, apart));
+    if (!slot.isKnown || slot.key != key || slot.group == 0) slot.group = groupOf(key);
     slot.key = key;
-    slot.group = groupOf(key);
     slot.turnAt = turn_;
     slot.isKnown = true;
   };
@@ -332,7 +355,7 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
   const auto test = [&](std::uint32_t at) {
     Slot& slot = slots_[at];
     slot.look = look_;
-    slot.isTested = true;
+    setTested(at, true);
     spend(kWorkOfExactTest);
     if (!tests.test(slot.pair.scene, slot.pair.part, minimum)) {
       separate(at);
@@ -354,7 +377,7 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
     for (; at_ < new_.size(); ++at_) {
       if (work == 0) return std::nullopt;
       if (slots_[new_[at_]].isKnown) continue;
-      slots_[new_[at_]].isTested = false;
+      setTested(new_[at_], false);
       separate(new_[at_]);
     }
     new_.clear();
@@ -381,7 +404,9 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
                least = asked_.enough + rounding;
   std::array<SeparationScan, 2> scans;
   for (std::size_t kind = 0; kind < scans.size(); ++kind)
-    scans[kind] = {.pose = separationPose(pose, kind != 0), .near = asked_.need + rounding};
+    scans[kind] = {.pose = separationPose(pose, kind != 0),
+                   .near = asked_.need + rounding,
+                   .nearOfTested = sure + rounding};
   std::optional<PairPassage> passage;
   if (asked_.way) {
     const RigidTransform from = centredPose(scene, part, asked_.way->from);
@@ -392,20 +417,10 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
     }
     passage.emplace(scene, part, *asked_.way, asked_.enough);
   }
-  const auto lookAt = [&](std::size_t lane, const SeparationScan& scan, const SeparationsFound& found) {
-    const auto at = static_cast<std::uint32_t>(at_ + lane);
-    if (asked_.way && !(std::min(found.apart[lane], found.atStart[lane]) > scan.nearOnWay)) {
-      found_.leastOnWay = std::min(found_.leastOnWay, passage->leastOf(slots_[at].pair));
-      spend(kWorkOfOnePassage);
-    }
-    const double bound = found.apart[lane] - rounding;
-    if (bound > asked_.need) {
-      found_.least = std::min(found_.least, bound);
-      return;
-    }
+  const auto lookAt = [&](std::uint32_t at, double bound) {
     const Slot& slot = slots_[at];
     if (slot.look == look_) return;
-    if (bound <= std::min(slot.isTested ? sure : asked_.need, groups_[slot.group].least - gain))
+    if (bound <= groups_[slot.group].least - gain)
       test(at);
     else
       found_.least = std::min(found_.least, bound);
@@ -415,18 +430,25 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
   for (std::size_t kind = at_ / kSlotsOfKind; kind < used_.size(); at_ = ++kind * kSlotsOfKind) {
     const std::size_t end = (kind * kSlotsOfKind + used_[kind] + kLanes - 1) / kLanes;
     while (at_ / kLanes < end) {
-      if (work == 0 || count + kLanes > out.size()) return std::nullopt;
-      const std::size_t first = at_ / kLanes, stop = std::min(first + kBlocksAtOnce, end);
-      double lowest = kBeyondAll;
-      const std::size_t block =
-          kernel_(separations_.data(), held_.data(), first, stop, scans[kind], found, lowest);
-      found_.least = std::min(found_.least, lowest - rounding);
-      at_ = block * kLanes;
-      spend(1 + (block - first) * kLanes / boundedOfWork);
-      if (block == stop) continue;
-      for (unsigned lanes = held_[block]; lanes != 0; lanes &= lanes - 1)
-        lookAt(static_cast<std::size_t>(std::countr_zero(lanes)), scans[kind], found);
-      at_ += kLanes;
+      if (work == 0) return std::nullopt;
+      const std::size_t first = at_ / kLanes, blocks = std::min(SeparationsFound::kMostBlocks, end - first);
+      kernel_(&separations_[first], &held_[first], &tested_[first], blocks, scans[kind], found);
+      spend(1 + blocks * kLanes / boundedOfWork);
+      found_.least = std::min(found_.least, found.lowest - rounding);
+      for (std::size_t block = 0; block < blocks; ++block, at_ += kLanes) {
+        const unsigned near = found.near[block], onWay = found.nearOnWay[block];
+        if ((near | onWay) == 0) continue;
+        if (work == 0 || count + kLanes > out.size()) return std::nullopt;
+        for (unsigned lanes = onWay; lanes != 0; lanes &= lanes - 1) {
+          const Slot& slot = slots_[at_ + static_cast<std::size_t>(std::countr_zero(lanes))];
+          found_.leastOnWay = std::min(found_.leastOnWay, passage->leastOf(slot.pair));
+          spend(kWorkOfOnePassage);
+        }
+        for (unsigned lanes = near; lanes != 0; lanes &= lanes - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+          lookAt(static_cast<std::uint32_t>(at_ + lane), found.apart[block][lane] - rounding);
+        }
+      }
     }
   }
   stage_ = Stage::Done;

@@ -24,10 +24,15 @@ namespace nearfit {
 /// Allocates only in the constructor; real-time safe after it.
 class ManyPairs {
  public:
+  /// With fewer pairs, testing all of them costs less than bounding them.
+  static constexpr std::size_t kFew = 1024;
   /// Max pairs held.
   static constexpr std::size_t kMax = 1U << 15;
 
   ManyPairs();
+
+  /// Becomes a copy of another for looks alone: it holds no other pairs from then on, until it is a copy anew.
+  void takeForLooks(const ManyPairs& from) noexcept;
 
   /// Forgets all pairs.
   void forget() noexcept;
@@ -64,6 +69,7 @@ class ManyPairs {
     /// Lower bound on the distance on the way, as in PairPassage [m]; at most `enough`.
     double leastOnWay = 0.0;
   };
+  double need() const noexcept { return asked_.need; }  ///< Of the last look [m].
   /// Starts a look; what an earlier one has not finished is left. The hierarchies are the same until forget().
   void begin(const Asked& asked) noexcept;
   /// Goes on with a look until it ends or the work is spent.
@@ -87,7 +93,6 @@ class ManyPairs {
     std::uint32_t look = 0;       ///< The look that tested it last.
     std::uint32_t separated = 0;  ///< The look that separated it last without a contact.
     bool isKnown = false;         ///< It has a separation.
-    bool isTested = false;        ///< It was tested since it became known.
     bool isClose = false;         ///< Its features were within `sure` when it was separated last.
   };
   struct Group {
@@ -101,7 +106,7 @@ class ManyPairs {
   /// Fetches into the cache what finding the pair a little after `at` needs.
   void fetchAhead(std::span<const LeafPair> pairs, std::size_t at) const noexcept;
   std::uint32_t find(const LeafPair& pair) const noexcept;
-  /// The same, for the pair that comes at place `next` or soon after if the order is that of the last call of hold();
+  /// The same, for the pair that comes at place `next` or soon after if the order is that of the last call of beginHolding();
   /// sets `next` to the place after it.
   std::uint32_t findNear(const LeafPair& pair, std::size_t& next) const noexcept;
   std::uint32_t add(const LeafPair& pair) noexcept;
@@ -110,6 +115,7 @@ class ManyPairs {
     return (held_[slot / kLanes] >> (slot % kLanes) & 1U) != 0;
   }
   void setHeld(std::uint32_t slot) noexcept;
+  void setTested(std::uint32_t slot, bool isTested) noexcept;
   /// Counts a held pair in its group, or among the new ones.
   void count(std::uint32_t slot) noexcept;
   /// Calls visit(slot) for each slot that was used so far.
@@ -122,7 +128,8 @@ class ManyPairs {
 
   std::vector<Slot> slots_;
   std::vector<SeparatedPairs> separations_;  ///< A lane for each slot.
-  std::vector<std::uint8_t> held_;  ///< For each of separations_, a bit for each lane whose pair is held.
+  std::vector<std::uint8_t> held_;    ///< For each of separations_, a bit for each lane whose pair is held,
+  std::vector<std::uint8_t> tested_;  ///< and for each whose pair was tested since it became known.
   /// Hash table of slots by pair. It holds the pairs themselves: a pair without a slot is told without reading others.
   struct Entry {
     LeafPair pair;
@@ -134,7 +141,7 @@ class ManyPairs {
     LeafPair pair;
     std::uint32_t slot = 0;
   };
-  std::vector<Placed> order_;          ///< Pairs held, in the order of the last call of hold(),
+  std::vector<Placed> order_;          ///< Pairs held, in the order of the last call of beginHolding(),
   std::vector<Placed> nextOrder_;      ///< and of the present one.
   std::array<std::size_t, 2> used_{};  ///< Slots used so far, of the scene and of the part.
   std::array<std::vector<std::uint32_t>, 2> free_;

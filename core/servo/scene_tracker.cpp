@@ -34,6 +34,11 @@ constexpr double kUsualTriangleRoom = 8.0, kLeastTriangleRoom = 1.0;
 /// Share of that room that must be left at a pose, and for a part that is starved.
 constexpr double kTriangleRoomToKeep = 0.5, kTriangleRoomIfStarved = 0.98;
 
+/// Ticks after which pairs that were made ready in time are claimed.
+constexpr double kTicksToClaim = 8.0;
+/// Max bodies whose pairs are prepared.
+constexpr std::size_t kMaxPrepared = 2;
+
 /// With springs no force depends on what overlaps: it is only shown, some hundred times a second. So it is looked at anew
 /// after that many ticks at the earliest, once that share of its room for motion is spent.
 constexpr double kTicksBetweenShownClearances = 8.0;
@@ -56,7 +61,7 @@ bool isBefore(const TrackedScene::Near& a, const TrackedScene::Near& b) noexcept
 }  // namespace
 
 TickObservation observationOf(const ServoSnapshot& snapshot) noexcept {
-  return {snapshot.proxy, snapshot.handle, snapshot.isWaiting, snapshot.isStarved};
+  return {snapshot.proxy, snapshot.handle, snapshot.isWaiting, snapshot.isStarved, snapshot.isCrowded};
 }
 
 void SceneTracker::setScene(std::shared_ptr<const ServoScene> scene) {
@@ -71,25 +76,37 @@ void SceneTracker::setScene(std::shared_ptr<const ServoScene> scene) {
                                       [&](const ServoScene::Body& b) { return isSame(b, body); });
       if (found == next.scene->bodies.end()) continue;
       next.near.push_back({static_cast<std::uint32_t>(found - next.scene->bodies.begin()), entry.list,
-                           entry.contacts, found->surface ? entry.triangles : nullptr});
+                           entry.contacts, found->surface ? entry.triangles : nullptr, entry.prepared,
+                           entry.formerPrepared});
     }
     std::sort(next.near.begin(), next.near.end(), isBefore);
   } else if (next.scene->moving.geometry) {
     const Aabb& box = next.scene->moving.geometry->mesh.bounds();
     forecast_ = hand_ = MotionForecast(box.centre(), 0.5 * box.diagonal());
+    steady_ = steadyHand_ = MotionForecast::steady(box.centre(), 0.5 * box.diagonal());
     forecast_.observe(next.scene->moving.worldFromPart, 1.0);
   }
   current_ = std::move(next);
+  for (BodyPreparer& of : preparers_)
+    of.body.reset();
   memory_.assign(current_.scene->bodies.size(), {});
 }
 
 void SceneTracker::update(const TickObservation& tick, double ticks) noexcept {
   forecast_.observe(tick.worldFromPart, ticks);
   clearanceAge_ += ticks;
-  if (tick.worldFromHand) hand_.observe(*tick.worldFromHand, ticks);
+  if (tick.worldFromHand) {
+    hand_.observe(*tick.worldFromHand, ticks);
+    steadyHand_.observe(*tick.worldFromHand, ticks);
+  }
+  steady_.observe(tick.worldFromPart, ticks);
   isWaiting_ = tick.isWaiting;
   isStarved_ = tick.isStarved;
-  if (isStarved_) forecast_.goAs(hand_);
+  isCrowded_ = tick.isCrowded;
+  if (isStarved_)
+    forecast_.goAs(isCrowded_ ? steadyHand_ : hand_);
+  else if (isCrowded_)
+    forecast_.moveAs(steady_);
 }
 
 TrackedPair SceneTracker::pairOf(std::uint32_t index) const noexcept {
@@ -105,17 +122,20 @@ ListPurpose SceneTracker::forMinima(const SearchReach& reach) const noexcept {
 }
 
 ListPurpose SceneTracker::forContacts(const SearchReach& reach) const noexcept {
-  const double turn = contactTurn(reach.contact, current_.scene->metric.radius);
+  const CandidateList::Bounds along{ManyPairs::kMax, 1U << 18};
+  const double cutoff = isCrowded_ ? reachOfThousands(reach.contact) : reach.contact;
+  const double turn = contactTurn(cutoff, current_.scene->metric.radius);
   // The proxy tries steps before it takes them, so there must be room for some, even around a part at rest.
-  return {.cutoff = reach.contact,
+  return {.cutoff = cutoff,
           .planCutoff = reach.widest(),
           .relaxation = turn,
           .leastRoom = {2.0 * reach.contact, 2.0 * turn},
-          .whole = {1U << 15, 1U << 16},
+          .isAlong = isCrowded_,
+          .whole = isCrowded_ ? along : CandidateList::Bounds{1U << 15, 1U << 16},
           // A tick goes through a whole list several times.
-          .part = {1U << 16, 1U << 18},
+          .part = isCrowded_ ? along : CandidateList::Bounds{1U << 16, 1U << 18},
           .least = {1U << 17, 1U << 20},
-          // A starved part gets a list around it; if it is already at the middle of one, no other is better.
+          // A starved part gets a list around it; if there is already one, no other is better.
           .roomToKeep = isStarved_ ? 0.98 : 0.5};
 }
 
@@ -222,22 +242,32 @@ bool SceneTracker::isAllClear(double cutoff, const std::vector<TrackedScene::Nea
 void SceneTracker::findNear(const SearchReach& reach, const std::vector<TrackedScene::Near>& former) {
   const MovingBounds moving = movingBounds(*current_.scene, current_.worldFromPart);
   const double cutoff = reach.widest();
-  current_.bounds->visitNear(
-      moving.centre, moving.radius + cutoff + current_.clear.travel,
-      [&](std::uint32_t body) { current_.near.push_back({body, nullptr, nullptr, nullptr}); });
+  current_.bounds->visitNear(moving.centre, moving.radius + cutoff + current_.clear.travel,
+                             [&](std::uint32_t body) { current_.near.push_back({.body = body}); });
   std::sort(current_.near.begin(), current_.near.end(), isBefore);
+  for (BodyPreparer& of : preparers_) {
+    const auto isNear = [&](const TrackedScene::Near& entry) { return of.body == entry.body; };
+    if (std::ranges::none_of(current_.near, isNear)) of.body.reset();
+  }
   std::erase_if(current_.near, [&](TrackedScene::Near& entry) {
     TrackedScene::Near old{};
     const auto found = std::lower_bound(former.begin(), former.end(), entry, isBefore);
     if (found != former.end() && found->body == entry.body) old = *found;
-    const bool wasListed = old.list && willServe({entry.body, old.list, nullptr, nullptr}, reach);
+    const bool wasListed = old.list && willServe({.body = entry.body, .list = old.list}, reach);
     if (!wasListed && isClearOf(entry.body, cutoff)) return true;
     // With springs a tick needs all minima: making a list is worth any attempt.
     Memory& memory = memory_[entry.body];
     if (!(reach.contact > 0.0)) memory = {};
     entry.list = renewed(old.list, entry.body, forMinima(reach), memory.minima);
-    if (hasContacts(entry.body, reach))
-      entry.contacts = renewed(old.contacts, entry.body, forContacts(reach), memory.contacts);
+    if (hasContacts(entry.body, reach)) {
+      entry.contacts =
+          renewed(old.contacts, entry.body, forContacts(reach), isCrowded_ ? memory.along : memory.contacts);
+      const bool isSame = entry.contacts && entry.contacts == old.contacts;
+      // A part that does not wait goes on with the former ones for a while.
+      const double ticks = old.prepared && !isStarved_ ? kTicksToClaim : 1.0;
+      entry.prepared = isSame ? old.prepared : prepared(entry.body, entry.contacts.get(), ticks, reach);
+      entry.formerPrepared = isSame ? old.formerPrepared : old.prepared;
+    }
     if (hasTriangles(entry.body, reach))
       entry.triangles = renewedTriangles(old.triangles, entry.body, reach, memory.triangles);
     return false;
@@ -250,6 +280,34 @@ std::shared_ptr<const CandidateList> SceneTracker::renewed(const std::shared_ptr
   if (former && nearfit::willServe(*former, pairOf(body), forecast_, purpose)) return former;
   const std::shared_ptr<CandidateList> list = spareOf(lists_);
   return buildForPlan(*list, pairOf(body), forecast_, purpose, scratch_, memory) ? list : nullptr;
+}
+
+PairPreparer* SceneTracker::preparerOf(std::uint32_t body) {
+  auto of = std::ranges::find(preparers_, std::optional(body), &BodyPreparer::body);
+  if (of != preparers_.end()) return of->preparer.get();
+  of = std::ranges::find(preparers_, std::optional<std::uint32_t>(), &BodyPreparer::body);
+  if (of == preparers_.end()) {
+    if (preparers_.size() == kMaxPrepared) return nullptr;
+    of = preparers_.insert(of, BodyPreparer{std::nullopt, std::make_unique<PairPreparer>()});
+  }
+  of->body = body;
+  of->preparer->forget();
+  return of->preparer.get();
+}
+
+std::shared_ptr<PreparedPairs> SceneTracker::prepared(std::uint32_t body, const CandidateList* list,
+                                                      double ticks, const SearchReach& reach) {
+  if (list == nullptr || !(list->cutoff() < reach.contact) || list->size() < ManyPairs::kFew ||
+      list->size() > ManyPairs::kMax)
+    return nullptr;
+  PairPreparer* const preparer = preparerOf(body);
+  if (preparer == nullptr) return nullptr;
+  const std::shared_ptr<PreparedPairs> out = spareOf(preparedPairs_);
+  const RigidTransform at =
+      pairOf(body).queryAt(forecast_.poseAfterwards(ticks), reach.contact).sceneFromPart;
+  preparer->prepare(*current_.scene, current_.scene->bodies[body], *list, at, reach.contact, nextSerial(),
+                    *out);
+  return out;
 }
 
 std::shared_ptr<const TriangleList> SceneTracker::renewedTriangles(

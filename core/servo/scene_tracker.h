@@ -8,13 +8,14 @@
 #include "core/proximity/query/lmd_query.h"
 #include "core/proximity/tracking/lmd_tracker.h"
 #include "core/proximity/tracking/motion_forecast.h"
+#include "core/servo/prepared_pairs.h"
 #include "core/servo/servo_snapshot.h"
 #include "core/servo/tracked_scene.h"
 
 namespace nearfit {
 
-/// Facts of a tick that a search ahead uses. No field has a default, so that GCC refuses to leave one out:
-/// a proxy that starves unnoticed stands still for good.
+/// Facts of a tick that a search ahead uses. All but the last have no default, so that GCC refuses to leave one out:
+/// a proxy that starves unnoticed stands still for good. Without the last, lists are only renewed more often.
 struct TickObservation {
   RigidTransform worldFromPart;  ///< Pose of the moving part.
   /// Pose where the hand wants the part, if known. A part that waits for lists is then expected to go on as
@@ -24,6 +25,8 @@ struct TickObservation {
   /// Lists of contacts fell short of where the proxy would go. They are then renewed around it, unless they
   /// were made there, and tried again where none could be made.
   bool isStarved;
+  /// So many pairs of features are near that lists of contacts are to serve long along the part's way and little aside.
+  bool isCrowded = false;
 };
 
 /// Returns what a search ahead needs from a tick. Real-time safe.
@@ -73,23 +76,37 @@ class SceneTracker {
   std::shared_ptr<const TriangleList> renewedTriangles(const std::shared_ptr<const TriangleList>& former,
                                                        std::uint32_t body, const SearchReach& reach,
                                                        double& share);
+  /// A body's preparer; null if all are others'.
+  PairPreparer* preparerOf(std::uint32_t body);
+  /// The pairs of a list, if they are thousands.
+  /// @param ticks  Ticks until they are claimed, once they are ready.
+  std::shared_ptr<PreparedPairs> prepared(std::uint32_t body, const CandidateList* list, double ticks,
+                                          const SearchReach& reach);
   TrackedPair pairOf(std::uint32_t body) const noexcept;
 
   TrackedScene current_;
   /// For each body of the scene: how much of a plan its recent lists could cover.
   struct Memory {
-    PlanMemory minima, contacts;
+    PlanMemory minima, contacts, along;
     double triangles = 1.0;  ///< Share of a plan's motion that the last list of triangles covers.
   };
   std::vector<Memory> memory_;
   std::uint64_t lastSerial_ = 0;  ///< Of the last clearance.
   double clearanceAge_ = 0.0;     ///< [ticks]
-  bool isWaiting_ = false, isStarved_ = false;
+  bool isWaiting_ = false, isStarved_ = false, isCrowded_ = false;
   MotionForecast forecast_, hand_;
+  MotionForecast steady_, steadyHand_;  ///< The same where lists serve long: MotionForecast::steady().
   LmdScratch scratch_;
   /// Lists return here, with their storage, when the last TrackedScene that uses them is overwritten.
   std::vector<std::shared_ptr<CandidateList>> lists_;
   std::vector<std::shared_ptr<TriangleList>> triangleLists_;
+  std::vector<std::shared_ptr<PreparedPairs>> preparedPairs_;
+  /// For bodies with thousands of pairs, at most kMaxPrepared.
+  struct BodyPreparer {
+    std::optional<std::uint32_t> body;
+    std::unique_ptr<PairPreparer> preparer;
+  };
+  std::vector<BodyPreparer> preparers_;
 };
 
 }  // namespace nearfit

@@ -102,6 +102,7 @@ struct ServoSnapshot {
   bool isWaiting = false;
   bool isStarved = false;  ///< Known contacts did not reach where the proxy would go.
   bool isBehind = false;   ///< The tick's work ended before the proxy's way.
+  bool isCrowded = false;  ///< ContactFinder::isCrowded() of the proxy.
   /// The part's joints contradict each other, so that none holds it.
   bool areJointsContradictory = false;
   std::uint32_t jointCount = 0;  ///< Joints that hold the part.

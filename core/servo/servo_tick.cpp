@@ -41,9 +41,9 @@ constexpr std::uint32_t kLongBehind = 16;
 
 /// Work that the proxy may do once the wrench is on its way. A device of a higher rate leaves less time for it;
 /// a period measured a little longer or shorter must not change what is done. A part that has been behind for long
-/// gets half as much again, and among thousands of pairs twice as much: a nut that stays behind loses turns.
-std::uint64_t workOfMovingOn(double period, bool isLongBehind, bool isAmongThousands) noexcept {
-  const std::uint64_t halves = !isLongBehind ? 2 : isAmongThousands ? 4 : 3;
+/// gets half as much again: a nut that stays behind loses turns.
+std::uint64_t workOfMovingOn(double period, bool isLongBehind) noexcept {
+  const std::uint64_t halves = isLongBehind ? 3 : 2;
   const std::uint64_t usual = ContactFinder::kUsualWork * halves / 2;
   constexpr double kHalfPeriod = 0.6e-3, kQuarterPeriod = 0.35e-3;
   return usual / (period > kHalfPeriod ? 1U : period > kQuarterPeriod ? 2U : 4U);
@@ -59,7 +59,7 @@ void clearOutputs(ServoSnapshot& snapshot) noexcept {
   snapshot.subSteps = snapshot.shortenedSteps = snapshot.refusedSteps = 0;
   snapshot.constraintCount = snapshot.contactCount = snapshot.storedContacts = snapshot.overlappingCount = 0;
   snapshot.isTruncated = snapshot.isClamped = snapshot.isWaiting = snapshot.isStarved = snapshot.isBehind =
-      false;
+      snapshot.isCrowded = false;
   snapshot.areJointsContradictory = snapshot.isOverlapUnknown = false;
   snapshot.jointCount = 0;
   snapshot.offJoints = {};
@@ -310,8 +310,7 @@ void ServoTick::moveOn(const Subject& subject) noexcept {
   } else {
     const Clock::time_point begin = Clock::now();
     if (fault_ == ServoFault::None)
-      proxy_.advance(subject.tracked,
-                     workOfMovingOn(period_, ticksBehind_ > kLongBehind, proxy_.isAmongThousands()),
+      proxy_.advance(subject.tracked, workOfMovingOn(period_, ticksBehind_ > kLongBehind),
                      ContactFinder::Excess::ToGather);
     subject.snapshot.proxyTime += secondsSince(begin) - proxy_.queryTime();
     subject.snapshot.queryTime += proxy_.queryTime();

@@ -134,6 +134,7 @@ void ServoTick::describeProxy(const Subject& subject) noexcept {
   snapshot.isWaiting = account.isWaiting;
   snapshot.isStarved = account.isStarved;
   snapshot.isBehind = account.isBehind;
+  snapshot.isCrowded = proxy_.isCrowded();
   snapshot.lateBodies += proxy_.lateBodies();
   snapshot.work += proxy_.work();
   const JointSet& joints = subject.scene.joints;

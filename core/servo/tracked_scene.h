@@ -17,6 +17,8 @@ namespace nearfit {
 /// Contacts count up to this many margins away: a step of the proxy can close such a gap.
 constexpr double kContactReach = 2.6;
 
+class PreparedPairs;
+
 /// Distances to search.
 struct SearchReach {
   double cutoff = 0.0;   ///< For minima [m].
@@ -51,9 +53,11 @@ struct TrackedScene {
   struct Near {
     std::uint32_t body = 0;  ///< Index in scene->bodies.
     /// For minima, and for contacts; null if there were too many pairs to list, or none are needed.
-    std::shared_ptr<const CandidateList> list, contacts;
+    std::shared_ptr<const CandidateList> list{}, contacts{};
     /// For contacts with an unsided surface instead; null if none are needed, or too many pairs are near.
     std::shared_ptr<const TriangleList> triangles{};
+    /// The pairs of `contacts`, if they are thousands, and those before: a look may still go on with them.
+    std::shared_ptr<PreparedPairs> prepared{}, formerPrepared{};
   };
 
   /// Unique ID among all SceneTrackers. Equal serials permit reuse of a tick's results if all else is equal

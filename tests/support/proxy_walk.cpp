@@ -30,7 +30,7 @@ void ProxyWalk::setScene(std::shared_ptr<ServoScene> scene) {
 const ProxyAccount& ProxyWalk::lead(const RigidTransform& hand) {
   const SearchReach reach{20.0 * settings_.margin, kContactReach * settings_.margin};
   const ProxyAccount& last = proxy_.account();
-  tracker_.update({proxy_.pose(), std::nullopt, last.isWaiting, last.isStarved}, 1.0);
+  tracker_.update({proxy_.pose(), std::nullopt, last.isWaiting, last.isStarved, proxy_.isCrowded()}, 1.0);
   if (tracker_.isDue(reach)) tracker_.refresh(reach, searchTicks_ == 0 ? tracked_ : found_);
   if (searchTicks_ > 0) {
     arriving_.push_back(found_.scene ? found_ : tracked_);

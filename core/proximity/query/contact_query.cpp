@@ -65,8 +65,8 @@ ContactPair contactOf(const EdgePairHits& hits, std::size_t lane, const NormalCo
 }  // namespace
 
 double contactTurn(double reach, double radius) noexcept {
-  constexpr double kMax = 0.026;
-  return radius * kMax > reach ? reach / radius : kMax;
+  constexpr double kMax = 0.026, kReaches = 2.0;
+  return radius * kMax > kReaches * reach ? kReaches * reach / radius : kMax;
 }
 
 bool spansContact(std::uint32_t sceneLeaf, std::uint32_t partLeaf) noexcept {

@@ -42,15 +42,20 @@ RigidTransform poseOn(const MotionStretch& stretch, const RigidTransform& middle
           middle.translation + time * stretch.shift};
 }
 
-double nearestTime(const MotionStretch& stretch, const RigidTransform& middle, const RigidTransform& pose,
-                   double radius) noexcept {
+double timeAlong(const MotionStretch& stretch, const RigidTransform& middle, const RigidTransform& pose,
+                 double radius) noexcept {
   const double length =
       glm::dot(stretch.shift, stretch.shift) + radius * radius * glm::dot(stretch.spin, stretch.spin);
   if (!(length > 0.0)) return 0.0;
   const glm::dvec3 turn = rotationVector(pose.rotation * glm::conjugate(middle.rotation));
   const double along = glm::dot(stretch.shift, pose.translation - middle.translation) +
                        radius * radius * glm::dot(stretch.spin, turn);
-  return std::clamp(along / length, -1.0, 1.0);
+  return along / length;
+}
+
+double nearestTime(const MotionStretch& stretch, const RigidTransform& middle, const RigidTransform& pose,
+                   double radius) noexcept {
+  return std::clamp(timeAlong(stretch, middle, pose, radius), -1.0, 1.0);
 }
 
 MotionRange operator*(double factor, const MotionRange& range) noexcept {

@@ -10,6 +10,8 @@ namespace nearfit {
 struct MotionBudget {
   double travel = 0.0;  ///< Max displacement of any point of the part [m].
   double turn = 0.0;    ///< Max rotation [rad].
+
+  bool operator==(const MotionBudget&) const = default;
 };
 
 /// Returns the motion between two poses of a part: a bound on the displacement of its points, and the angle.
@@ -25,13 +27,19 @@ MotionBudget operator*(double factor, const MotionBudget& budget) noexcept;
 struct MotionStretch {
   glm::dvec3 shift{0.0};  ///< Translation of the part's centre [m].
   glm::dvec3 spin{0.0};   ///< Rotation vector (axis times angle) about the centre [rad].
+
+  bool operator==(const MotionStretch&) const = default;
 };
 
 /// Returns the pose at a time on a stretch. Frames have their origin at the part's centre.
 /// @param time  -1 to 1; 0 is the middle.
 RigidTransform poseOn(const MotionStretch& stretch, const RigidTransform& middle, double time) noexcept;
 
-/// Returns the approximate time, -1 to 1, at which a stretch is nearest to a pose.
+/// Returns the approximate time at which a stretch, if it went on at both ends, would be nearest to a pose.
+/// @param radius  Radius of the part about its centre [m].
+double timeAlong(const MotionStretch& stretch, const RigidTransform& middle, const RigidTransform& pose,
+                 double radius) noexcept;
+/// The same on the stretch alone: -1 to 1.
 /// @param radius  Radius of the part about its centre [m].
 double nearestTime(const MotionStretch& stretch, const RigidTransform& middle, const RigidTransform& pose,
                    double radius) noexcept;
@@ -40,6 +48,8 @@ double nearestTime(const MotionStretch& stretch, const RigidTransform& middle, c
 struct MotionRange {
   MotionStretch stretch;
   MotionBudget budget;
+
+  bool operator==(const MotionRange&) const = default;
 };
 
 MotionRange operator*(double factor, const MotionRange& range) noexcept;

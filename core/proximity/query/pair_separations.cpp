@@ -50,13 +50,24 @@ NEARFIT_INLINE double leastOf(const PairDoubles& lanes) {
   return least;
 }
 
-NEARFIT_INLINE std::size_t scanBlocks(const SeparatedPairs* blocks, const std::uint8_t* held,
-                                      std::size_t first, std::size_t end, const SeparationScan& scan,
-                                      SeparationsFound& found, double& lowest) {
+/// A bit for each lane in which a comparison holds.
+NEARFIT_INLINE std::uint8_t bitsOf(const PairBits& holds) {
+  using HalfBits = std::int64_t __attribute__((vector_size(32)));
   constexpr PairBits kLaneBits{1, 2, 4, 8, 16, 32, 64, 128};
-  PairDoubles lowestLanes = PairDoubles{} + kBeyondAll;
-  std::size_t at = first;
-  for (; at < end; ++at) {
+  const PairBits bits = holds & kLaneBits;
+  const HalfBits halves =
+      __builtin_shufflevector(bits, bits, 0, 1, 2, 3) | __builtin_shufflevector(bits, bits, 4, 5, 6, 7);
+  return static_cast<std::uint8_t>(halves[0] | halves[1] | halves[2] | halves[3]);
+}
+
+NEARFIT_INLINE void scanBlocks(const SeparatedPairs* blocks, const std::uint8_t* held,
+                               const std::uint8_t* tested, std::size_t count, const SeparationScan& scan,
+                               SeparationsFound& found) {
+  constexpr PairBits kLaneBits{1, 2, 4, 8, 16, 32, 64, 128};
+  const PairDoubles beyondAll = PairDoubles{} + kBeyondAll;
+  PairDoubles lowest = beyondAll;
+  for (std::size_t at = 0; at < count; ++at) {
+    found.near[at] = found.nearOnWay[at] = 0;
     if (held[at] == 0) continue;
     const SeparatedPairs& pairs = blocks[at];
     const Block block{simd::lanesOf<PairDoubles>(pairs.direction), simd::lanesOf<PairDoubles>(pairs.ends[0]),
@@ -64,40 +75,34 @@ NEARFIT_INLINE std::size_t scanBlocks(const SeparatedPairs* blocks, const std::u
                       simd::lanesOf<PairDoubles>(pairs.height).value,
                       ((PairBits{} + static_cast<std::int64_t>(held[at])) & kLaneBits) != 0};
     const PairDoubles apart = apartIn(block, scan.pose).value;
-    PairDoubles atStart = PairDoubles{} + kBeyondAll, nearest = apart;
+    const PairBits wasTested = ((PairBits{} + static_cast<std::int64_t>(tested[at])) & kLaneBits) != 0;
+    const PairBits isNear =
+        apart <= (wasTested ? PairDoubles{} + scan.nearOfTested : PairDoubles{} + scan.near);
+    const std::uint8_t near = found.near[at] = bitsOf(isNear & block.isHeld);
     if (scan.isOfWay) {
-      atStart = apartIn(block, scan.start).value;
-      nearest = simd::least(apart, atStart);
+      const PairDoubles nearest = simd::least(apart, apartIn(block, scan.start).value);
+      found.nearOnWay[at] = bitsOf((nearest <= PairDoubles{} + scan.nearOnWay) & block.isHeld);
     }
-    const bool matters = leastOf(apart) <= scan.near || (scan.isOfWay && leastOf(nearest) <= scan.nearOnWay);
-    if (matters) {
-      __builtin_memcpy(&found.apart, &apart, sizeof apart);
-      __builtin_memcpy(&found.atStart, &atStart, sizeof atStart);
-      break;
-    }
-    lowestLanes = simd::least(lowestLanes, apart);
+    if ((near | found.nearOnWay[at]) != 0) __builtin_memcpy(&found.apart[at], &apart, sizeof apart);
+    lowest = simd::least(lowest, isNear ? beyondAll : apart);
   }
-  const double least = leastOf(lowestLanes);
-  lowest = least < lowest ? least : lowest;
-  return at;
+  found.lowest = leastOf(lowest);
 }
 
-std::size_t scanPortable(const SeparatedPairs* blocks, const std::uint8_t* held, std::size_t first,
-                         std::size_t end, const SeparationScan& scan, SeparationsFound& found,
-                         double& lowest) noexcept {
-  return scanBlocks(blocks, held, first, end, scan, found, lowest);
+void scanPortable(const SeparatedPairs* blocks, const std::uint8_t* held, const std::uint8_t* tested,
+                  std::size_t count, const SeparationScan& scan, SeparationsFound& found) noexcept {
+  scanBlocks(blocks, held, tested, count, scan, found);
 }
 
 #if defined(__x86_64__)
-NEARFIT_AVX2 std::size_t scanAvx2(const SeparatedPairs* blocks, const std::uint8_t* held, std::size_t first,
-                                  std::size_t end, const SeparationScan& scan, SeparationsFound& found,
-                                  double& lowest) noexcept {
-  return scanBlocks(blocks, held, first, end, scan, found, lowest);
+NEARFIT_AVX2 void scanAvx2(const SeparatedPairs* blocks, const std::uint8_t* held, const std::uint8_t* tested,
+                           std::size_t count, const SeparationScan& scan, SeparationsFound& found) noexcept {
+  scanBlocks(blocks, held, tested, count, scan, found);
 }
-NEARFIT_AVX512 std::size_t scanAvx512(const SeparatedPairs* blocks, const std::uint8_t* held,
-                                      std::size_t first, std::size_t end, const SeparationScan& scan,
-                                      SeparationsFound& found, double& lowest) noexcept {
-  return scanBlocks(blocks, held, first, end, scan, found, lowest);
+NEARFIT_AVX512 void scanAvx512(const SeparatedPairs* blocks, const std::uint8_t* held,
+                               const std::uint8_t* tested, std::size_t count, const SeparationScan& scan,
+                               SeparationsFound& found) noexcept {
+  scanBlocks(blocks, held, tested, count, scan, found);
 }
 #endif
 

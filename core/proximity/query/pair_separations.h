@@ -70,30 +70,34 @@ struct SeparationPose {
 /// @param sceneFromPart  Between the trees' centred frames.
 SeparationPose separationPose(const RigidTransform& sceneFromPart, bool isOfPart) noexcept;
 
-/// Looks for blocks with a pair that is near at a pose or, if that ends a way, at either end of it.
+/// Looks for pairs that are near at a pose or, if that ends a way, at either end of it.
 struct SeparationScan {
   SeparationPose pose{};
-  double near = 0.0;  ///< A pair no farther apart than this at the pose is near [m].
+  double near = 0.0;          ///< A pair no farther apart than this at the pose is near [m],
+  double nearOfTested = 0.0;  ///< or than this, at most `near`, if it was tested before.
   bool isOfWay = false;
   SeparationPose start{};  ///< Pose at the start of the way.
-  double nearOnWay = 0.0;  ///< So is one no farther apart than this at either end [m].
+  double nearOnWay = 0.0;  ///< A pair no farther apart than this at either end is near on the way [m].
 };
 
-/// Separations of the pairs of a block [m]: to some roundings of the coordinates, no more than their distances. Infinity
-/// for pairs that are not held.
+/// Separations of some blocks of pairs [m]: to some roundings of the coordinates, no more than their distances. Pairs that
+/// are not held are not near.
 struct SeparationsFound {
-  SeparatedPairs::Numbers apart{};    ///< At the pose.
-  SeparatedPairs::Numbers atStart{};  ///< At the way's start; infinity without a way.
+  static constexpr std::size_t kMostBlocks = 16;
+  /// By block, a bit for each lane whose pair is near, and for each that is near on the way.
+  std::array<std::uint8_t, kMostBlocks> near{}, nearOnWay{};
+  std::array<SeparatedPairs::Numbers, kMostBlocks> apart{};  ///< At the pose, of the blocks with such a pair.
+  double lowest =
+      0.0;  ///< How far the nearest of the other pairs is apart at the pose; infinity without one.
 };
 
-/// Bounds the pairs of blocks `first` to `end` in order until a block has a near one. Returns the block's index, with
-/// `found` filled, or `end`.
+/// Bounds the pairs of the first `count` blocks, at most SeparationsFound::kMostBlocks.
 /// @param held    For each block a bit per lane; pairs without theirs are passed over.
-/// @param lowest  Lowered to how far the nearest pair of the blocks passed is apart at the pose [m].
+/// @param tested  The same for pairs that were tested before.
 /// Real-time safe.
-using SeparationKernel = std::size_t (*)(const SeparatedPairs* blocks, const std::uint8_t* held,
-                                         std::size_t first, std::size_t end, const SeparationScan& scan,
-                                         SeparationsFound& found, double& lowest) noexcept;
+using SeparationKernel = void (*)(const SeparatedPairs* blocks, const std::uint8_t* held,
+                                  const std::uint8_t* tested, std::size_t count, const SeparationScan& scan,
+                                  SeparationsFound& found) noexcept;
 
 /// Returns the kernel for an instruction set that the machine has.
 SeparationKernel separationKernel(SimdLevel level) noexcept;

@@ -90,7 +90,7 @@ RangeLimits CandidateList::limitsWithin(double share) const noexcept {
 }
 
 void CandidateList::build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch,
-                          const Bounds& bounds, double relaxation) {
+                          const Bounds& bounds, double relaxation, bool hasLevels) {
   scene_ = &query.scene;
   part_ = &query.part;
   cutoff_ = query.cutoff;
@@ -103,13 +103,13 @@ void CandidateList::build(const BodyPairQuery& query, const MotionRange& range, 
   pose_ = centredPose(query.scene, query.part, query.sceneFromPart);
   LmdScratch::Data& workspace = scratch.data();
   const RangeLimits limits = limitsWithin(1.0);
+  const auto outermost = static_cast<std::uint8_t>(hasLevels ? kLevels.size() - 1 : 0);
   TreeTraversal traversal(*scene_, *part_, pose_, limits.still, workspace.openSwept, workspace.traversal);
   traversal.setSweep(limits.inScene, limits.inPart);
   isUsable_ = traversal.run(
       [&](const EntryPair& pair) {
         if (relaxation_ > 0.0 && !spansContact(pair.scene, pair.part)) return;
-        if (found_.size() <= bounds.pairs)
-          found_.push_back({pair.sceneLane, pair.partLane, kLevels.size() - 1});
+        if (found_.size() <= bounds.pairs) found_.push_back({pair.sceneLane, pair.partLane, outermost});
       },
       bounds.nodePairs);
   isUsable_ = isUsable_ && found_.size() <= bounds.pairs;
@@ -117,7 +117,7 @@ void CandidateList::build(const BodyPairQuery& query, const MotionRange& range, 
     found_.clear();
     return;
   }
-  findLevels(workspace);
+  if (hasLevels) findLevels(workspace);
   pack();
 }
 
@@ -188,6 +188,11 @@ double CandidateList::spent(const RigidTransform& sceneFromPart) const noexcept 
 double CandidateList::roomLeft(const RigidTransform& sceneFromPart) const noexcept {
   if (!isUsable_ || !sceneFromPart.isFinite()) return -std::numeric_limits<double>::infinity();
   return 1.0 - spentShare(asideOf(centredPose(*scene_, *part_, sceneFromPart)), range_.budget);
+}
+
+double CandidateList::timeAt(const RigidTransform& sceneFromPart) const noexcept {
+  if (!isUsable_ || !sceneFromPart.isFinite()) return std::numeric_limits<double>::infinity();
+  return timeAlong(range_.stretch, pose_, centredPose(*scene_, *part_, sceneFromPart), 0.5 * part_->size());
 }
 
 bool CandidateList::covers(const RigidTransform& sceneFromPart, double cutoff) const noexcept {
@@ -279,9 +284,13 @@ std::optional<MotionBudget> CandidateList::roomAlong(const Way& way) const noexc
       const MotionBudget there = asideOf(end);
       aside = {std::max(aside.travel, there.travel), std::max(aside.turn, there.turn)};
     }
-    // Turns about different axes do not add up: between the ends the way may be farther aside by their product.
-    const double spin = glm::length(way.stretch.spin);
-    lost.turn = spin * (spin + glm::length(range_.stretch.spin) + aside.turn);
+    // Turns about different axes do not add up: between the ends the way may be farther aside by their product. Turns
+    // about one axis do, however large they are.
+    const glm::dvec3 &onWay = way.stretch.spin, &onList = range_.stretch.spin;
+    const double spin = glm::length(onWay), listed = glm::length(onList);
+    const glm::dvec3 across = spin > 0.0 ? onList - glm::dot(onList, onWay) / (spin * spin) * onWay : onList;
+    lost.turn =
+        std::min(spin * (spin + listed + aside.turn), (spin + listed) * (glm::length(across) + aside.turn));
     lost.travel = 0.5 * part_->size() * lost.turn;
   }
   return MotionBudget{std::max(0.0, range_.budget.travel - aside.travel - lost.travel),

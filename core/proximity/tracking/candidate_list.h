@@ -41,8 +41,9 @@ class CandidateList {
   /// @param range       In the frame of the scene's mesh.
   /// @param relaxation  Max relaxation that nearbyPairs() may ask for [rad]. If > 0, the list leaves out
   ///                    regions of faces and serves nearbyPairs() only.
+  /// @param hasLevels   False for a list whose pairs are always taken for a whole way: it is built faster.
   void build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch, const Bounds& bounds,
-             double relaxation = 0.0);
+             double relaxation = 0.0, bool hasLevels = true);
   void build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch) {
     build(query, range, scratch, Bounds{});
   }
@@ -53,6 +54,9 @@ class CandidateList {
   /// Share of the range's budget, for deviation from the stretch, that is left at a pose; negative where the
   /// list does not hold.
   double roomLeft(const RigidTransform& sceneFromPart) const noexcept;
+
+  /// Time at which the list's stretch, if it went on, would be nearest to a pose; beyond -1 or 1 the list has ended.
+  double timeAt(const RigidTransform& sceneFromPart) const noexcept;
 
   /// True if the list is exact for a pose and cutoff [m].
   bool covers(const RigidTransform& sceneFromPart, double cutoff) const noexcept;
@@ -84,6 +88,15 @@ class CandidateList {
       const RigidTransform& from, const RigidTransform& to, const ContactReach& reach,
       const MotionBudget& slack, LmdScratch& scratch, std::span<LeafPair> out,
       std::uint64_t maxWork = std::numeric_limits<std::uint64_t>::max()) const noexcept;
+
+  /// Calls visit(pair) for each pair.
+  template <class Visit>
+  void visitAll(Visit&& visit) const {
+    for (std::size_t i = 0; i < size(); ++i) {
+      const BoundPairs& block = blocks_[i / kListedAtOnce];
+      visit(LeafPair{block.scene.child[i % kListedAtOnce], block.part.child[i % kListedAtOnce]});
+    }
+  }
 
   /// Number of pairs.
   std::size_t size() const noexcept { return levelEnds_.back(); }

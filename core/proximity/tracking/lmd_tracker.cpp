@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
@@ -13,26 +14,42 @@ namespace {
 /// Beyond this turn, limits of direction no longer cull [rad].
 constexpr double kMaxClearTurn = 0.5;
 
-/// Share of a plan that a list is built for, by level.
-constexpr std::array<double, 4> kShares{1.0, 0.5, 0.25, 0.1};
-/// A list for part of a plan keeps this many times as much of the stretch as of the budget for deviation.
-constexpr double kWayShare = 2.0;
+/// What a list is built for, by level: shares of a plan's way and of its budget for deviation. A list for part of a plan
+/// keeps more of the way, if there is a min budget.
+struct PlanPart {
+  double way, aside;
+};
+constexpr std::array<PlanPart, 4> kParts{{{1.0, 1.0}, {1.0, 0.5}, {0.5, 0.25}, {0.2, 0.1}}};
+/// The same where a list is to serve long along the way: lengths of the way, in min budgets for deviation, and shares of that
+/// budget. How many pairs there are depends on the length, whatever the speed: a part that waited will go faster.
+constexpr std::array<PlanPart, kParts.size()> kPartsAlong{
+    {{6.0, 0.12}, {4.5, 0.12}, {3.0, 0.12}, {1.0, 0.1}}};
+/// Such a list is for no more ticks than these.
+constexpr double kMostTicks = 64.0;
+/// It is renewed after this time on its way: steps look ahead, and the search takes a while.
+constexpr double kTimeToRenew = 0.0;
 /// After this many lists for less of a plan, or skipped attempts, more is tried; at once if a list holds less
 /// than kFewPairs of the pairs that it may.
 constexpr unsigned kBuildsBetweenTries = 16;
 constexpr double kFewPairs = 1.0 / 8.0;
 
-/// If the whole plan is too much, its stretch counts for more than deviation, which gets the min budget.
-SearchPlan planFor(const MotionForecast& forecast, const ListPurpose& purpose, double share) noexcept {
-  const MotionBudget least = share * purpose.leastRoom;
-  if (share == 1.0 || !(least.travel > 0.0)) {
-    SearchPlan plan = forecast.plan(purpose.planCutoff, share);
-    plan.range.budget = {std::max(plan.range.budget.travel, least.travel),
-                         std::max(plan.range.budget.turn, least.turn)};
+SearchPlan planFor(const MotionForecast& forecast, const ListPurpose& purpose, std::size_t level) noexcept {
+  if (purpose.isAlong) {
+    const double way = kPartsAlong[level].way * purpose.leastRoom.travel, speed = forecast.speed();
+    SearchPlan plan =
+        forecast.planOfTicks(purpose.planCutoff, way < kMostTicks * speed ? way / speed : kMostTicks);
+    // Where there is hardly a way, there is room for more aside.
+    const bool isSlow = kMostTicks * speed < purpose.leastRoom.travel;
+    plan.range.budget = (isSlow ? kParts : kPartsAlong)[level].aside * purpose.leastRoom;
     return plan;
   }
-  SearchPlan plan = forecast.plan(purpose.planCutoff, std::min(1.0, kWayShare * share));
-  plan.range.budget = least;
+  const PlanPart& part = kParts[level];
+  if (!(purpose.leastRoom.travel > 0.0)) return forecast.plan(purpose.planCutoff, part.aside);
+  SearchPlan plan = forecast.plan(purpose.planCutoff, part.way);
+  const MotionBudget least = part.aside * purpose.leastRoom;
+  plan.range.budget = level == 0 ? MotionBudget{std::max(plan.range.budget.travel, least.travel),
+                                                std::max(plan.range.budget.turn, least.turn)}
+                                 : least;
   return plan;
 }
 
@@ -51,22 +68,34 @@ bool willServe(const CandidateList& list, const TrackedPair& pair, const MotionF
     const RigidTransform at = pair.queryAt(pose, purpose.cutoff).sceneFromPart;
     return list.spent(at) <= 1.0 && list.roomLeft(at) >= purpose.roomToKeep;
   };
-  return list.cutoff() == purpose.cutoff && covers(forecast.pose()) && covers(forecast.poseWhenReady());
+  if (list.cutoff() != purpose.cutoff || !covers(forecast.pose()) || !covers(forecast.poseWhenReady()))
+    return false;
+  if (!purpose.isAlong) return true;
+  const auto timeAfter = [&](double ticks) {
+    return list.timeAt(pair.queryAt(forecast.poseAfterwards(ticks), purpose.cutoff).sceneFromPart);
+  };
+  const double now = timeAfter(1.0);
+  const bool isGoingBack = timeAfter(2.0) < now;
+  // One that hardly moves stays within the list for long, whichever way it goes.
+  return (isGoingBack ? -now : now) <= kTimeToRenew || std::abs(timeAfter(0.5 * kMostTicks)) <= 1.0;
 }
 
 const CandidateList::Bounds& ListPurpose::boundsAt(std::size_t level) const noexcept {
-  return level == 0 ? whole : level + 1 < kShares.size() ? part : least;
+  return level == 0 ? whole : level + 1 < kParts.size() ? part : least;
 }
 
 bool buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
                   const ListPurpose& purpose, LmdScratch& scratch, PlanMemory& memory) {
   const glm::dquat sceneFromWorld = glm::conjugate(pair.worldFromScene.rotation);
   if (memory.level > 0 && ++memory.builds % kBuildsBetweenTries == 0) --memory.level;
-  for (; memory.level < kShares.size(); ++memory.level) {
-    const double share = kShares[memory.level];
-    const SearchPlan plan = planFor(forecast, purpose, share);
+  MotionRange failed;
+  for (; memory.level < kParts.size(); ++memory.level) {
+    const SearchPlan plan = planFor(forecast, purpose, memory.level);
+    // A way that is cut short may be the same at two levels.
+    if (plan.range == failed) continue;
+    failed = plan.range;
     list.build(pair.queryAt(plan.pose, purpose.cutoff), turned(sceneFromWorld, plan.range), scratch,
-               purpose.boundsAt(memory.level), purpose.relaxation);
+               purpose.boundsAt(memory.level), purpose.relaxation, !purpose.isAlong);
     if (!list.isUsable()) continue;
     const auto most = memory.level > 0 ? static_cast<double>(purpose.boundsAt(memory.level - 1).pairs) : 0.0;
     if (static_cast<double>(list.size()) < kFewPairs * most) --memory.level;

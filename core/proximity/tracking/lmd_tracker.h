@@ -36,6 +36,7 @@ struct ListPurpose {
   double planCutoff = 0.0;   ///< Bounds the budget for deviation [m]: the cutoff, or a wider one.
   double relaxation = 0.0;   ///< As in CandidateList::build [rad].
   MotionBudget leastRoom{};  ///< Min budget for deviation from the forecast.
+  bool isAlong = false;      ///< The list is to serve long along the forecast's way and little aside.
   /// Bounds of a list for the whole plan, for a part of it, and for the smallest part.
   CandidateList::Bounds whole{1U << 14, 1U << 14}, part{}, least{};
 

@@ -23,6 +23,8 @@ constexpr double kErrorGrowth = 2.0;
 /// and some four ticks (Holt's double exponential smoothing, which unlike simple smoothing does not lag
 /// behind a steady change).
 constexpr double kVelocityShare = 0.5, kTrendShare = 0.25;
+/// Weight of the newest velocity where a part goes in steps of several ticks. Its trend would follow the steps.
+constexpr double kSteadyShare = 1.0 / 16.0;
 
 /// How long a search's result must serve [ticks]: while the next search waits for its turn and runs, and a
 /// little more; the shorter, the shorter the lists. If ticks wait for the search, long enough that few do.
@@ -53,13 +55,20 @@ constexpr double kMinTurn = 1e-3, kMaxTurn = 0.1;
 /// part's radius), means that the part was placed elsewhere. It is not taken for motion unless the next step
 /// is like it.
 constexpr double kJump = 3.0, kJumpOfRadius = 0.005;
+/// The same share where a part goes in steps of several ticks.
+constexpr double kJumpOfSteps = 0.04;
 
 MotionBudget greater(const MotionBudget& a, const MotionBudget& b) noexcept {
   return {std::max(a.travel, b.travel), std::max(a.turn, b.turn)};
 }
 
 /// Updates a velocity and its trend with a velocity measured over some ticks.
-void smooth(glm::dvec3& velocity, glm::dvec3& trend, const glm::dvec3& measured, double ticks) noexcept {
+void smooth(glm::dvec3& velocity, glm::dvec3& trend, const glm::dvec3& measured, double ticks,
+            bool isSteady) noexcept {
+  if (isSteady) {
+    velocity += (1.0 - std::pow(1.0 - kSteadyShare, ticks)) * (measured - velocity);
+    return;
+  }
   const glm::dvec3 expected = velocity + ticks * trend;
   const glm::dvec3 next = expected + (1.0 - std::pow(1.0 - kVelocityShare, ticks)) * (measured - expected);
   trend += (1.0 - std::pow(1.0 - kTrendShare, ticks)) * ((next - velocity) / ticks - trend);
@@ -82,6 +91,12 @@ glm::dvec3 limited(const glm::dvec3& vector, double limit) noexcept {
 
 }  // namespace
 
+MotionForecast MotionForecast::steady(const glm::dvec3& centre, double radius) noexcept {
+  MotionForecast out(centre, radius);
+  out.isSteady_ = true;
+  return out;
+}
+
 void MotionForecast::observe(const RigidTransform& pose, double ticks) noexcept {
   if (!pose.isFinite()) return;
   const RigidTransform next = pose.normalized();
@@ -95,12 +110,13 @@ void MotionForecast::observe(const RigidTransform& pose, double ticks) noexcept 
     fastest_ = memory * fastest_;
     error_ = memory * error_;
     lead_ *= memory;
-    const bool isJump = motion.travel > std::max(kJump * fastest_.travel, kJumpOfRadius * radius_);
+    const bool isJump = motion.travel > std::max(kJump * fastest_.travel,
+                                                 (isSteady_ ? kJumpOfSteps : kJumpOfRadius) * radius_);
     if (!isJump || wasJump_) {
       const MotionStretch now{(to.translation - from.translation) / ticks,
                               rotationVector(to.rotation * glm::conjugate(from.rotation)) / ticks};
-      smooth(velocity_.shift, trend_.shift, now.shift, ticks);
-      smooth(velocity_.spin, trend_.spin, now.spin, ticks);
+      smooth(velocity_.shift, trend_.shift, now.shift, ticks, isSteady_);
+      smooth(velocity_.spin, trend_.spin, now.spin, ticks, isSteady_);
       fastest_ = greater(motion, fastest_);
       checkProbe(to, ticks);
     }
@@ -112,10 +128,15 @@ void MotionForecast::observe(const RigidTransform& pose, double ticks) noexcept 
   isHeldUp_ = false;
 }
 
-void MotionForecast::goAs(const MotionForecast& leader) noexcept {
+void MotionForecast::moveAs(const MotionForecast& leader) noexcept {
   if (!leader.hasPose_) return;
   velocity_ = leader.velocity_;
   trend_ = leader.trend_;
+}
+
+void MotionForecast::goAs(const MotionForecast& leader) noexcept {
+  if (!leader.hasPose_) return;
+  moveAs(leader);
   isHeldUp_ = true;
 }
 
@@ -139,14 +160,26 @@ RigidTransform MotionForecast::poseAhead(double ticks) const noexcept {
   return {to.rotation, to.translation - to.rotation * centre_};
 }
 
-RigidTransform MotionForecast::poseWhenReady() const noexcept {
-  return poseAhead(isHeldUp_ ? 1.0 : lead_ + 1.0);
+RigidTransform MotionForecast::poseAfterwards(double ticks) const noexcept {
+  return poseAhead(isHeldUp_ ? ticks : lead_ + ticks);
+}
+
+double MotionForecast::speed() const noexcept {
+  return glm::length(velocity_.shift) + radius_ * glm::length(velocity_.spin);
 }
 
 SearchPlan MotionForecast::plan(double cutoff, double share) const noexcept {
+  const double begin = isHeldUp_ ? 0.0 : lead_;
+  return planOver(cutoff, share, share * (lead_ + windowOf(lead_) - begin));
+}
+
+SearchPlan MotionForecast::planOfTicks(double cutoff, double ticks) const noexcept {
+  return planOver(cutoff, 1.0, ticks);
+}
+
+SearchPlan MotionForecast::planOver(double cutoff, double share, double whole) const noexcept {
   // A held-up part begins where it is, however long the search takes.
   const double begin = isHeldUp_ ? 0.0 : lead_;
-  const double whole = share * (lead_ + windowOf(lead_) - begin);
   // Part of the travel comes from turning: the min travel must allow for the min turn.
   const double leastTravel = kMinTravel * cutoff + kMinTurn * radius_;
   const double mostTravel = std::max(leastTravel, kMaxTravel * cutoff);

@@ -21,12 +21,17 @@ class MotionForecast {
   /// @param centre  Centre of the part in its own frame [m].
   /// @param radius  Radius of a sphere about the centre that holds the part [m].
   MotionForecast(const glm::dvec3& centre, double radius) noexcept : centre_(centre), radius_(radius) {}
+  /// The same, for a part that goes in steps of several ticks: the path follows the mean motion of some of them.
+  static MotionForecast steady(const glm::dvec3& centre, double radius) noexcept;
 
   /// Records the part's current pose; ignores one that is not finite.
   /// @param ticks  Ticks since the last call; > 0.
   void observe(const RigidTransform& pose, double ticks) noexcept;
   const RigidTransform& pose() const noexcept { return pose_; }  ///< Latest pose.
 
+  /// From now on expects the part to move as its leader does, whatever it did itself.
+  /// @param leader  Forecast of what leads it; ignored if it has observed nothing.
+  void moveAs(const MotionForecast& leader) noexcept;
   /// Until the next observe(), treats the part as held up where it is, then moving as its leader does. Its
   /// own motion only shows how long it waited, not where it will go.
   /// @param leader  Forecast of the hand that leads it; ignored if it has observed nothing.
@@ -37,14 +42,22 @@ class MotionForecast {
   void setLead(double ticks) noexcept;
 
   /// Returns the pose expected in the first tick after a search that starts now; in the next if held up.
-  RigidTransform poseWhenReady() const noexcept;
+  RigidTransform poseWhenReady() const noexcept { return poseAfterwards(1.0); }
+  /// The same so many ticks after the search has ended.
+  RigidTransform poseAfterwards(double ticks) const noexcept;
+
+  /// Present motion of the part's farthest point [m per tick].
+  double speed() const noexcept;
 
   /// Plans a search that starts now.
   /// @param cutoff  Cutoff of the search [m]; bounds the budget for deviation.
   /// @param share   Share of the time that the result should serve; a smaller share leaves less to find.
   SearchPlan plan(double cutoff, double share = 1.0) const noexcept;
+  /// The same for a result that serves for so many ticks, whatever the search takes.
+  SearchPlan planOfTicks(double cutoff, double ticks) const noexcept;
 
  private:
+  SearchPlan planOver(double cutoff, double share, double ticks) const noexcept;
   RigidTransform poseAhead(double ticks) const noexcept;
   void checkProbe(const RigidTransform& centred, double ticks) noexcept;
 
@@ -64,8 +77,9 @@ class MotionForecast {
     double age = 0.0;  ///< [ticks]
   };
   Probe probe_;
-  MotionBudget error_;       ///< Max recent deviation from the forecast path, one tick ahead.
-  double lead_ = 0.0;        ///< [ticks]
+  MotionBudget error_;  ///< Max recent deviation from the forecast path, one tick ahead.
+  double lead_ = 0.0;   ///< [ticks]
+  bool isSteady_ = false;
   double generosity_ = 1.0;  ///< Factor of the budget for deviation.
 };
 

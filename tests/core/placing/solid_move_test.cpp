@@ -203,7 +203,7 @@ TEST(SolidMove, NoPoseOfAWildDragMeetsAnything) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> shift(-0.15, 0.05), angle(-1.5, 1.5);
   int blocked = 0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 100; ++i) {
     const RigidTransform wanted = at({shift(random), shift(random) + 0.05, shift(random) + 0.05}) *
                                   turnedAbout({0.09, 0.0, 0.0}, {1, 0.3 * i, 2}, angle(random));
     const SolidMove::Progress progress = move.advance(wanted, 25);

@@ -88,10 +88,11 @@ TEST(PairSeparations, AreLowerBoundsAtEveryPose) {
               .pose = separationPose(centredPose(scene, part, there), separation.isOfPart),
               .near = std::numeric_limits<double>::infinity()};
           const auto held = static_cast<std::uint8_t>(1U << k % SeparatedPairs::kLanes);
+          const std::uint8_t tested = 0;
           SeparationsFound found;
-          double lowest = std::numeric_limits<double>::infinity();
-          ASSERT_EQ(separationKernel(level)(&block, &held, 0, 1, scan, found, lowest), 0U);
-          const double bound = found.apart[k % SeparatedPairs::kLanes];
+          separationKernel(level)(&block, &held, &tested, 1, scan, found);
+          ASSERT_EQ(found.near[0], held);
+          const double bound = found.apart[0][k % SeparatedPairs::kLanes];
           ASSERT_LE(bound, distance + 1e-12) << i << ", pair " << k << ", move " << move;
           if (move == 0 && bound > 0.7 * distance) ++tight;
           ++compared;
@@ -112,37 +113,53 @@ Separation atHeight(double height) {
   return {.direction = {1.0, 0.0, 0.0}, .height = height, .ends = {glm::dvec3(0.0), glm::dvec3(0.0)}};
 }
 
-TEST(PairSeparations, AScanStopsAtTheFirstBlockWithAPairThatItLooksFor) {
-  constexpr std::size_t kBlocks = 6;
+TEST(PairSeparations, AScanNamesThePairsThatAreNearAndBoundsTheOthers) {
+  constexpr std::size_t kBlocks = 6, kLanes = SeparatedPairs::kLanes;
   std::vector<SeparatedPairs> blocks(kBlocks);
-  std::vector<std::uint8_t> held(kBlocks, 0xFF);
-  for (std::size_t i = 0; i < kBlocks * SeparatedPairs::kLanes; ++i)
-    blocks[i / SeparatedPairs::kLanes].set(i % SeparatedPairs::kLanes,
-                                           atHeight(-1.0 - static_cast<double>(i)));
-  // In block 1 only among pairs that are not held, in block 3 among those that are.
+  std::vector<std::uint8_t> held(kBlocks, 0xFF), tested(kBlocks, 0);
+  for (std::size_t i = 0; i < kBlocks * kLanes; ++i)
+    blocks[i / kLanes].set(i % kLanes, atHeight(-1.0 - static_cast<double>(i)));
+  // In block 1 among pairs that are not held; in block 3 one that was tested and one that was not, both of two.
   blocks[1].set(2, atHeight(-0.1));
   held[1] = 0xFB;
-  blocks[3].set(7, atHeight(-0.2));
+  for (const std::size_t lane : {4, 5}) {
+    blocks[3].set(lane, atHeight(-0.2));
+    blocks[3].set(lane + 2, atHeight(-0.4));
+  }
+  tested[3] = 0b1010'0000;
   held[0] = 0;
   for (const SimdLevel level : availableSimdLevels()) {
+    const SeparationKernel kernel = separationKernel(level);
     SeparationsFound found;
-    double lowest = std::numeric_limits<double>::infinity();
-    SeparationScan scan{.near = 0.5};
-    EXPECT_EQ(separationKernel(level)(blocks.data(), held.data(), 0, kBlocks, scan, found, lowest), 3U);
-    EXPECT_EQ(found.apart[7], 0.2);
-    EXPECT_EQ(found.apart[0], 25.0);
-    EXPECT_EQ(lowest, 9.0);
-    lowest = 2.0;
-    EXPECT_EQ(separationKernel(level)(blocks.data(), held.data(), 4, kBlocks, scan, found, lowest), kBlocks);
-    EXPECT_EQ(lowest, 2.0);
-    // On a way that began 30 m nearer.
+    SeparationScan scan{.near = 0.5, .nearOfTested = 0.3};
+    kernel(blocks.data(), held.data(), tested.data(), kBlocks, scan, found);
+    for (std::size_t block = 0; block < kBlocks; ++block) {
+      EXPECT_EQ(found.near[block], block == 3 ? 0b0111'0000 : 0) << block;
+      EXPECT_EQ(found.nearOnWay[block], 0) << block;
+    }
+    EXPECT_EQ(found.apart[3][4], 0.2);
+    EXPECT_EQ(found.apart[3][6], 0.4);
+    EXPECT_EQ(found.lowest, 0.4) << "of the tested pair that is not near";
+    scan.nearOfTested = 0.5;
+    kernel(blocks.data(), held.data(), tested.data(), kBlocks, scan, found);
+    EXPECT_EQ(found.near[3], 0b1111'0000);
+    EXPECT_EQ(found.lowest, 9.0);
+    // Blocks 4 and 5 on a way that began 30 m nearer: pairs are 33 to 48 m apart at its end.
     scan.isOfWay = true;
     scan.start.shift = {-30.0, 0.0, 0.0};
     scan.nearOnWay = 5.0;
-    lowest = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(separationKernel(level)(blocks.data(), held.data(), 4, kBlocks, scan, found, lowest), 4U);
-    EXPECT_EQ(found.atStart[0], 3.0);
-    EXPECT_EQ(lowest, std::numeric_limits<double>::infinity());
+    kernel(&blocks[4], &held[4], &tested[4], 2, scan, found);
+    EXPECT_EQ(found.near[0], 0);
+    EXPECT_EQ(found.nearOnWay[0], 0b0000'0111);
+    EXPECT_EQ(found.nearOnWay[1], 0);
+    EXPECT_EQ(found.apart[0][0], 33.0);
+    EXPECT_EQ(found.lowest, 33.0);
+    // Nothing is left over from an earlier scan.
+    held[4] = 0;
+    kernel(&blocks[4], &held[4], &tested[4], 1, scan, found);
+    EXPECT_EQ(found.near[0] | found.nearOnWay[0], 0);
+    EXPECT_EQ(found.lowest, std::numeric_limits<double>::infinity());
+    held[4] = 0xFF;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -20,6 +21,7 @@ using test::BodyPair;
 
 constexpr double kCutoff = 0.1;
 const MotionBudget kBudget{0.02, 0.03};
+constexpr double kTurn = 0.02;  ///< Of a step, for lists of contacts.
 constexpr CandidateList::Bounds kNoBounds{1U << 20, 1U << 30};
 
 class Stars {
@@ -108,6 +110,49 @@ TEST(CandidateList, HoldsTheExactSetAlongAStretchOfAWayAndAsideOfIt) {
     }
   }
   EXPECT_GT(compared, 1000U);
+}
+
+TEST(CandidateList, TheRoomAlongAWayIsThereAllAlongIt) {
+  Stars stars;
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const glm::dvec3 centre = stars.part.centre();
+  const auto vector = [&](double length) {
+    return length * (test::randomRotation(random).rotation * glm::dvec3(1, 0, 0));
+  };
+  CandidateList list;
+  std::size_t ways = 0, farTurns = 0, tight = 0;
+  for (int i = 0; i < 400; ++i) {
+    const RigidTransform middle = test::poseNearContact(stars.pair, kCutoff, random);
+    // The way turns about nearly the same axis as the list's, or about any other.
+    const glm::dvec3 axis = vector(1.0);
+    const MotionRange range{{vector(0.02), (0.01 + 0.09 * share(random)) * axis}, {0.02, 0.03}};
+    list.build({stars.scene, stars.part, middle, kCutoff}, range, stars.scratch, kNoBounds, kTurn);
+    const RigidTransform from{middle.rotation, middle.applyToPoint(centre)};
+    const glm::dvec3 offAxis = i % 2 == 0 ? vector(0.03) : vector(0.8);
+    const RigidTransform at = poseOn(range.stretch, from, 0.4 * (share(random) - 0.5));
+    const double length = 0.7 * share(random);
+    const MotionStretch way{length * range.stretch.shift,
+                            length * glm::length(range.stretch.spin) * glm::normalize(axis + offAxis)};
+    const auto uncentred = [&](const RigidTransform& pose) {
+      return RigidTransform{pose.rotation, pose.translation - pose.rotation * centre};
+    };
+    const std::optional<MotionBudget> room =
+        list.roomAlong(uncentred(poseOn(way, at, -1.0)), uncentred(poseOn(way, at, 1.0)), {kCutoff, kTurn});
+    if (!room) continue;
+    ++ways;
+    farTurns += glm::length(way.spin) > 0.03 && room->turn > 0.5 * range.budget.turn ? 1 : 0;
+    tight += room->turn == 0.0 || room->travel == 0.0 ? 1 : 0;
+    for (double time = -1.0; time <= 1.0; time += 0.05) {
+      const RigidTransform on = uncentred(poseOn(way, at, time));
+      EXPECT_LE(list.spent(on), 1.0) << i << ", time " << time;
+      const RigidTransform aside = movedWithin(on, stars.part, *room, 0.98, random);
+      EXPECT_LE(list.spent(aside), 1.0) << i << ", aside at time " << time;
+    }
+  }
+  EXPECT_GT(ways, 200U);
+  EXPECT_GT(farTurns, 20U) << "where axes agree, a large turn takes little room";
+  EXPECT_LT(tight, ways);
 }
 
 TEST(CandidateList, RotationAloneSpendsTheBudgetToo) {

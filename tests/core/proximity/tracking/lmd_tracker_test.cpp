@@ -267,5 +267,64 @@ TEST(BuildForPlan, ListsOfLessKeepTheWayAndLeaveRoomAside) {
   EXPECT_LT(less.size(), whole.size());
 }
 
+// A list that is to serve long was renewed each tick, as what was foretold strayed from tick to tick.
+TEST(BuildForPlan, AListAlongAWayIsRenewedInItsMiddleWhicheverWayThePartGoes) {
+  const TriangleMesh mesh = test::icosphereMesh(0.5, 2);
+  const PartGeometryPtr ball = test::geometryOf(mesh);
+  const TrackedPair pair{ball->tree(), ball->tree(), {}};
+  const auto along = [](double ticks) { return RigidTransform{{1, 0, 0, 0}, {1.02, 2e-3 * ticks, 0.0}}; };
+  MotionForecast forecast(mesh.bounds().centre(), 0.5 * mesh.bounds().diagonal());
+  for (int tick = -40; tick <= 0; ++tick)
+    forecast.observe(along(tick), 1.0);
+  const CandidateList::Bounds many{1U << 20, 1U << 30};
+  const ListPurpose purpose{.cutoff = 0.1,
+                            .planCutoff = 0.1,
+                            .leastRoom = {0.01, 0.01},
+                            .isAlong = true,
+                            .whole = many,
+                            .part = many,
+                            .least = many};
+  LmdScratch scratch;
+  CandidateList list;
+  PlanMemory memory;
+  const MotionForecast start = forecast;
+  ASSERT_TRUE(buildForPlan(list, pair, start, purpose, scratch, memory));
+  ASSERT_EQ(memory.level, 0U);
+  // Its way is as long as six min budgets, at both ends a tenth longer.
+  for (const int tick : {0, 8, 15, 22, 30})
+    EXPECT_LE(list.spent(along(tick)), 1.0) << tick;
+  EXPECT_GT(list.spent(along(35)), 1.0);
+  for (int tick = 1; tick <= 30; ++tick) {
+    forecast.observe(along(tick), 1.0);
+    // In the next tick it is in the middle.
+    if (tick < 13) {
+      EXPECT_TRUE(willServe(list, pair, forecast, purpose)) << tick;
+    }
+    if (tick > 17) {
+      EXPECT_FALSE(willServe(list, pair, forecast, purpose)) << tick;
+    }
+  }
+  // One that stops, and stirs to either side, needs no other.
+  MotionForecast resting = forecast;
+  ASSERT_TRUE(buildForPlan(list, pair, forecast, purpose, scratch, memory));
+  for (int tick = 0; tick < 200; ++tick) {
+    resting.observe(along(30.0 + 1e-3 * (tick % 7)), 1.0);
+    if (tick > 40) {
+      EXPECT_TRUE(willServe(list, pair, resting, purpose)) << tick;
+    }
+  }
+  ASSERT_TRUE(buildForPlan(list, pair, start, purpose, scratch, memory));
+  // The other way it serves until it is before its middle.
+  for (int tick = 30; tick >= 0; --tick) {
+    forecast.observe(along(tick), 1.0);
+    if (tick < 24 && tick > 18) {
+      EXPECT_TRUE(willServe(list, pair, forecast, purpose)) << tick;
+    }
+    if (tick < 12) {
+      EXPECT_FALSE(willServe(list, pair, forecast, purpose)) << tick;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nearfit::lmd_tracker_test

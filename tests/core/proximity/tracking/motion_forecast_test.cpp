@@ -91,6 +91,31 @@ TEST(MotionForecast, APartThatWaitsIsForetoldToGoOnFromWhereItIsAsItsHandDoes) {
   EXPECT_EQ(forecast.pose().translation, stands.translation);
 }
 
+TEST(MotionForecast, ASteadyOneFollowsTheMeanMotionOfAPartThatGoesInSteps) {
+  MotionForecast steady = MotionForecast::steady(kCentre, kRadius);
+  const glm::dvec3 step(1e-3, 0.0, 5e-4);
+  RigidTransform pose{{1, 0, 0, 0}, {1.0, 2.0, 3.0}};
+  // It steps in every third tick, a little aside by turns.
+  for (int tick = 0; tick < 300; ++tick) {
+    if (tick % 3 == 0) pose.translation += 3.0 * step + glm::dvec3(0.0, tick % 2 == 0 ? 2e-4 : -2e-4, 0.0);
+    steady.observe(pose, 1.0);
+  }
+  EXPECT_NEAR(steady.speed(), glm::length(step), 0.15 * glm::length(step));
+  const MotionStretch& way = steady.planOfTicks(kCutoff, 40.0).range.stretch;
+  EXPECT_GT(glm::dot(glm::normalize(way.shift), glm::normalize(step)), 0.999);
+  EXPECT_NEAR(glm::length(way.shift), 20.0 * glm::length(step), 6.0 * glm::length(step));
+  // A way that would be longer than the cutoff ends earlier.
+  EXPECT_LE(glm::length(steady.planOfTicks(kCutoff, 4000.0).range.stretch.shift), kCutoff);
+  // The part that is led goes on from where it is.
+  MotionForecast part(kCentre, kRadius);
+  for (int tick = 0; tick < 40; ++tick)
+    part.observe(pose, 1.0);
+  part.moveAs(steady);
+  const glm::dvec3 ahead = part.poseAfterwards(8.0).translation - pose.translation;
+  EXPECT_GT(glm::dot(ahead, step), 0.0);
+  EXPECT_NEAR(glm::length(ahead), 8.0 * glm::length(step), 2.0 * glm::length(step));
+}
+
 TEST(MotionForecast, ALeaderThatHasSeenNothingChangesNothing) {
   MotionForecast forecast(kCentre, kRadius);
   for (int tick = 0; tick < 40; ++tick)
