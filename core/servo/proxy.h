@@ -102,6 +102,8 @@ class Proxy {
   std::uint32_t lateBodies() const noexcept { return finder_.lateBodies(); }
   /// ContactFinder::work() of the last tick.
   std::uint64_t work() const noexcept { return finder_.work(); }
+  /// ContactFinder::isAmongThousands().
+  bool isAmongThousands() const noexcept { return finder_.isAmongThousands(); }
   /// ContactFinder::isCrowded().
   bool isCrowded() const noexcept { return finder_.isCrowded(); }
   /// Time that the search for contacts took in the last tick [s].
