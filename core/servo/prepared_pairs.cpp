@@ -42,7 +42,7 @@ void PairPreparer::prepare(const ServoScene& scene, const ServoScene::Body& body
                            PreparedPairs& out) {
   contacts_.resize(kTaken);
   listed_.clear();
-  list.visitAll([this](const LeafPair& pair) { listed_.push_back(pair); });
+  list.appendPairs(listed_);
   std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
   pairs_.beginHolding(listed_, motionBetween(pose_, sceneFromPart, 0.0).turn);
   pairs_.goOnHolding(work);

@@ -27,7 +27,7 @@ struct Box {
     }
     return true;
   }
-  /// Of the boxes, but for rounding.
+  /// Box of the boxes, but for rounding.
   double distance(const Box& other) const;
   double size() const { return upper.x - lower.x + upper.y - lower.y + upper.z - lower.z; }
 };

@@ -50,10 +50,14 @@ NEARFIT_INLINE double leastOf(const PairDoubles& lanes) {
   return least;
 }
 
+constexpr PairBits kLaneBits{1, 2, 4, 8, 16, 32, 64, 128};
+/// The lanes that have their bit.
+NEARFIT_INLINE PairBits lanesOfBits(std::uint8_t bits) {
+  return ((PairBits{} + static_cast<std::int64_t>(bits)) & kLaneBits) != 0;
+}
 /// A bit for each lane in which a comparison holds.
 NEARFIT_INLINE std::uint8_t bitsOf(const PairBits& holds) {
   using HalfBits = std::int64_t __attribute__((vector_size(32)));
-  constexpr PairBits kLaneBits{1, 2, 4, 8, 16, 32, 64, 128};
   const PairBits bits = holds & kLaneBits;
   const HalfBits halves =
       __builtin_shufflevector(bits, bits, 0, 1, 2, 3) | __builtin_shufflevector(bits, bits, 4, 5, 6, 7);
@@ -63,7 +67,6 @@ NEARFIT_INLINE std::uint8_t bitsOf(const PairBits& holds) {
 NEARFIT_INLINE void scanBlocks(const SeparatedPairs* blocks, const std::uint8_t* held,
                                const std::uint8_t* tested, std::size_t count, const SeparationScan& scan,
                                SeparationsFound& found) {
-  constexpr PairBits kLaneBits{1, 2, 4, 8, 16, 32, 64, 128};
   const PairDoubles beyondAll = PairDoubles{} + kBeyondAll;
   PairDoubles lowest = beyondAll;
   for (std::size_t at = 0; at < count; ++at) {
@@ -72,12 +75,10 @@ NEARFIT_INLINE void scanBlocks(const SeparatedPairs* blocks, const std::uint8_t*
     const SeparatedPairs& pairs = blocks[at];
     const Block block{simd::lanesOf<PairDoubles>(pairs.direction), simd::lanesOf<PairDoubles>(pairs.ends[0]),
                       simd::lanesOf<PairDoubles>(pairs.ends[1]),
-                      simd::lanesOf<PairDoubles>(pairs.height).value,
-                      ((PairBits{} + static_cast<std::int64_t>(held[at])) & kLaneBits) != 0};
+                      simd::lanesOf<PairDoubles>(pairs.height).value, lanesOfBits(held[at])};
     const PairDoubles apart = apartIn(block, scan.pose).value;
-    const PairBits wasTested = ((PairBits{} + static_cast<std::int64_t>(tested[at])) & kLaneBits) != 0;
     const PairBits isNear =
-        apart <= (wasTested ? PairDoubles{} + scan.nearOfTested : PairDoubles{} + scan.near);
+        apart <= (lanesOfBits(tested[at]) ? PairDoubles{} + scan.nearOfTested : PairDoubles{} + scan.near);
     const std::uint8_t near = found.near[at] = bitsOf(isNear & block.isHeld);
     if (scan.isOfWay) {
       const PairDoubles nearest = simd::least(apart, apartIn(block, scan.start).value);

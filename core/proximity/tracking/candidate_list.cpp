@@ -230,6 +230,15 @@ std::size_t CandidateList::visitPairs(std::size_t count, Cull&& cull, Visit&& vi
   return blocksOf(count);
 }
 
+void CandidateList::appendPairs(std::vector<LeafPair>& out) const {
+  visitPairs(
+      size(), [](const BoundPairs&) { return (1U << kNodeWidth) - 1U; },
+      [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
+        out.push_back({sceneLeaf, partLeaf});
+        return true;
+      });
+}
+
 std::optional<LmdResult> CandidateList::query(const RigidTransform& sceneFromPart, double cutoff,
                                               LmdScratch& scratch, std::span<Lmd> out,
                                               std::uint64_t maxWork) const noexcept {

@@ -89,14 +89,8 @@ class CandidateList {
       const MotionBudget& slack, LmdScratch& scratch, std::span<LeafPair> out,
       std::uint64_t maxWork = std::numeric_limits<std::uint64_t>::max()) const noexcept;
 
-  /// Calls visit(pair) for each pair.
-  template <class Visit>
-  void visitAll(Visit&& visit) const {
-    for (std::size_t i = 0; i < size(); ++i) {
-      const BoundPairs& block = blocks_[i / kListedAtOnce];
-      visit(LeafPair{block.scene.child[i % kListedAtOnce], block.part.child[i % kListedAtOnce]});
-    }
-  }
+  /// Adds all pairs to a vector.
+  void appendPairs(std::vector<LeafPair>& out) const;
 
   /// Number of pairs.
   std::size_t size() const noexcept { return levelEnds_.back(); }

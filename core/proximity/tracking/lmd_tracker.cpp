@@ -14,8 +14,8 @@ namespace {
 /// Beyond this turn, limits of direction no longer cull [rad].
 constexpr double kMaxClearTurn = 0.5;
 
-/// What a list is built for, by level: shares of a plan's way and of its budget for deviation. A list for part of a plan
-/// keeps more of the way, if there is a min budget.
+/// Shares of a plan's way and of its budget for deviation that a list covers, by level. A list for part of a plan keeps
+/// more of the way, if there is a min budget.
 struct PlanPart {
   double way, aside;
 };

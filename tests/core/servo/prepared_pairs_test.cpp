@@ -43,7 +43,7 @@ class RodAmongWaves : public testing::Test {
     const double distance = reachOfThousands(kContact);
     return {distance, contactTurn(distance, scene().metric.radius)};
   }
-  /// Of all poses within a few steps of one.
+  /// A list for all poses within a few steps of one.
   CandidateList listAround(const RigidTransform& pose) {
     CandidateList list;
     list.build(queryAt(pose, reach().distance), {{}, {0.01, 0.01}}, scratch_, {ManyPairs::kMax, kUnbounded},
