@@ -166,14 +166,15 @@ class ShapeCheck {
         if (child != Tree::kNoChild && !take(child, i)) return false;
       }
     }
-    return seen_ == leaves;
+    return seen_ == leaves && areLowestKindsRight();
   }
 
  private:
   bool take(std::uint32_t child, std::uint32_t parent) {
     if (!Tree::isLeaf(child)) {
-      if (child <= parent || child >= depth_.size() || depth_[child] != 0) return false;
-      depth_[child] = static_cast<std::uint8_t>(depth_[parent] + 1);
+      const std::uint32_t node = Tree::nodeIndex(child);
+      if (node <= parent || node >= depth_.size() || depth_[node] != 0) return false;
+      depth_[node] = static_cast<std::uint8_t>(depth_[parent] + 1);
       return true;
     }
     const auto kind = static_cast<std::size_t>(Tree::leafKind(child));
@@ -181,6 +182,20 @@ class ShapeCheck {
     if (kind >= 3 || index >= counts_[kind] || isSeen_[kind][index]) return false;
     isSeen_[kind][index] = true;
     ++seen_;
+    return true;
+  }
+
+  /// Searches for contacts rely on them.
+  bool areLowestKindsRight() const {
+    std::vector<FeatureKind> lowest(tree_.nodes.size(), FeatureKind::Face);
+    for (std::size_t i = lowest.size(); i-- > 0;) {
+      for (const std::uint32_t child : tree_.nodes[i].child) {
+        if (child == Tree::kNoChild) continue;
+        const FeatureKind kind = Tree::lowestKind(child);
+        if (!Tree::isLeaf(child) && kind != lowest[Tree::nodeIndex(child)]) return false;
+        lowest[i] = std::min(lowest[i], kind);
+      }
+    }
     return true;
   }
 

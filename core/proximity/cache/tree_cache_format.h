@@ -27,7 +27,7 @@ namespace nearfit {
 
 /// Increases by one whenever this layout or the meaning of a field changes. What import and building compute
 /// needs no number: the header carries a fingerprint of their sources (see core/CMakeLists.txt).
-constexpr std::uint32_t kTreeCacheVersion = 6;
+constexpr std::uint32_t kTreeCacheVersion = 7;
 
 /// Bytes of a section that share a checksum: enough work for a thread, and enough blocks in a large file.
 constexpr std::size_t kTreeCacheBlock = std::size_t{2} << 20;

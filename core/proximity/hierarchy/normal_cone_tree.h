@@ -117,15 +117,23 @@ class NormalConeTree {
   /// Takes over the arrays of another hierarchy; checks nothing.
   explicit NormalConeTree(Arrays arrays) : arrays_(std::move(arrays)) {}
 
-  /// A child is a node index or a leaf. A leaf has kLeafBit, its kind in two bits, and an index into
-  /// vertices(), edges() or faces().
+  /// A child is a node or a leaf; a leaf has kLeafBit. Two bits hold the kind of a leaf or, of a node, the lowest kind of
+  /// the leaves below it; the rest is an index into nodes(), or into vertices(), edges() or faces().
   static constexpr std::uint32_t kLeafBit = 0x80000000U;
   static constexpr std::uint32_t kNoChild = 0xFFFFFFFFU;
+  static constexpr std::uint32_t kKindShift = 29;
   static bool isLeaf(std::uint32_t child) noexcept { return (child & kLeafBit) != 0; }
-  static FeatureKind leafKind(std::uint32_t child) noexcept {
-    return static_cast<FeatureKind>(child >> 29 & 3U);
+  /// Kind of a leaf, or lowest kind below a node.
+  static FeatureKind lowestKind(std::uint32_t child) noexcept {
+    return static_cast<FeatureKind>(child >> kKindShift & 3U);
   }
-  static std::uint32_t leafIndex(std::uint32_t child) noexcept { return child & 0x1FFFFFFFU; }
+  static FeatureKind leafKind(std::uint32_t leaf) noexcept { return lowestKind(leaf); }
+  static std::uint32_t leafIndex(std::uint32_t leaf) noexcept { return leaf & kIndexBits; }
+  static std::uint32_t nodeIndex(std::uint32_t child) noexcept { return child & kIndexBits; }
+  /// The child for a node.
+  static std::uint32_t nodeChild(std::uint32_t index, FeatureKind lowest) noexcept {
+    return static_cast<std::uint32_t>(lowest) << kKindShift | index;
+  }
 
   /// The mesh whose features these are. Leaves refer to its vertices, edges and triangles.
   const TriangleMesh& mesh() const noexcept { return arrays_.mesh; }
@@ -169,6 +177,8 @@ class NormalConeTree {
   std::size_t byteSize() const noexcept;
 
  private:
+  static constexpr std::uint32_t kIndexBits = (1U << kKindShift) - 1U;
+
   Arrays arrays_;
 };
 

@@ -27,6 +27,19 @@ std::array<float, 3> toSingle(const glm::dvec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+/// Writes the lowest kind below each node to the child that refers to it. Children come after their parents.
+void markLowestKinds(std::vector<NormalConeTree::Node>& nodes) {
+  std::vector<FeatureKind> lowest(nodes.size());
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    lowest[i] = FeatureKind::Face;
+    for (std::uint32_t& child : nodes[i].child) {
+      if (child == NormalConeTree::kNoChild) continue;
+      if (!NormalConeTree::isLeaf(child)) child = NormalConeTree::nodeChild(child, lowest[child]);
+      lowest[i] = std::min(lowest[i], NormalConeTree::lowestKind(child));
+    }
+  }
+}
+
 }  // namespace
 
 NormalConeTree::Arrays NormalConeTreeBuilder::build() {
@@ -158,6 +171,7 @@ void NormalConeTreeBuilder::buildSubtrees(std::vector<Subtree>& subtrees) {
     tree_.nodes.insert(tree_.nodes.end(), subtree.nodes.begin(), subtree.nodes.end());
     subtree.nodes = {};
   }
+  markLowestKinds(tree_.nodes);
 }
 
 /// Puts first the `cut` items that are lowest along the axis of greatest spread.

@@ -51,14 +51,14 @@ template <class Visit>
 void visitFaces(const NormalConeTree& tree, const SegmentBound& bound, Visit&& visit) {
   const SegmentKernel kernel = segmentKernel(defaultSimdLevel());
   const std::uint32_t top = tree.nodes()[0].child[0];
-  std::vector<std::uint32_t> stack{NormalConeTree::isLeaf(top) ? 0 : top};
+  std::vector<std::uint32_t> stack{NormalConeTree::isLeaf(top) ? 0 : NormalConeTree::nodeIndex(top)};
   while (!stack.empty()) {
     const NormalConeTree::Node& node = tree.nodes()[stack.back()];
     stack.pop_back();
     for (std::uint32_t lanes = kernel(node, bound); lanes != 0; lanes &= lanes - 1) {
       const std::uint32_t child = node.child[static_cast<std::size_t>(std::countr_zero(lanes))];
       if (!NormalConeTree::isLeaf(child)) {
-        stack.push_back(child);
+        stack.push_back(NormalConeTree::nodeIndex(child));
       } else if (NormalConeTree::leafKind(child) == FeatureKind::Face) {
         visit(tree.faces()[NormalConeTree::leafIndex(child)].face);
       }

@@ -65,14 +65,8 @@ ContactPair contactOf(const EdgePairHits& hits, std::size_t lane, const NormalCo
 }  // namespace
 
 double contactTurn(double reach, double radius) noexcept {
-  constexpr double kMax = 0.026, kReaches = 2.0;
-  return radius * kMax > kReaches * reach ? kReaches * reach / radius : kMax;
-}
-
-bool spansContact(std::uint32_t sceneLeaf, std::uint32_t partLeaf) noexcept {
-  using enum FeatureKind;
-  const FeatureKind a = NormalConeTree::leafKind(sceneLeaf), b = NormalConeTree::leafKind(partLeaf);
-  return (a != Face || b == Vertex) && (b != Face || a == Vertex);
+  constexpr double kMax = 0.026;
+  return radius * kMax > reach ? reach / radius : kMax;
 }
 
 NearbyPairs findNearbyPairs(const BodyPairQuery& query, const ContactReach& reach, const MotionBudget& slack,
@@ -85,11 +79,11 @@ NearbyPairs findNearbyPairs(const BodyPairQuery& query, const ContactReach& reac
   LmdScratch::Data& workspace = scratch.data();
   const BodyPairQuery within{query.scene, query.part, query.sceneFromPart, reach.distance};
   TreeTraversal traversal(query.scene, query.part, pose, contactLimits(within, pose, reach.turn, slack),
-                          workspace.open, workspace.traversal);
+                          workspace.openContacts, workspace.traversal);
   bool hasRoom = true;
   const bool isDone = traversal.run(
       [&](const EntryPair& pair) {
-        if (!hasRoom || !spansContact(pair.scene, pair.part)) return;
+        if (!hasRoom) return;
         const bool takesWork = result.count % kListedAtOnce == 0;
         hasRoom = result.count < out.size() && !(takesWork && traversal.nodePairs() >= maxWork);
         if (!hasRoom) {

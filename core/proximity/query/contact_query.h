@@ -21,7 +21,7 @@ struct ContactPair {
 };
 
 /// Returns the max turn of the part in a step, by which conditions on directions are relaxed [rad]. It moves
-/// the part's farthest points twice as far as contacts count: where the part slides, a step may be so long. It is at most
+/// the part's farthest points about as far as contacts count, so it does not limit the step. It is at most
 /// one and a half degrees, since lists of pairs grow with it.
 /// @param reach   Max distance of a contact [m].
 /// @param radius  Radius of the part about its centre of mass [m].
@@ -44,10 +44,6 @@ struct ContactResult {
   /// Lower bound on the distance of two bodies that do not overlap and are closed and oriented [m].
   double distanceBound() const noexcept { return least < completeTo ? least : completeTo; }
 };
-
-/// True if two leaves can form a contact. The points that span a flat region stand for it, so faces form
-/// contacts with vertices only.
-bool spansContact(std::uint32_t sceneLeaf, std::uint32_t partLeaf) noexcept;
 
 /// Number of feature pairs culled, or listed, in the time of opening one pair of nodes.
 constexpr std::size_t kListedAtOnce = 8;

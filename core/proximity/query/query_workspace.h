@@ -26,6 +26,8 @@ struct LmdScratch::Data {
         merge(capacity),
         open(opener(simd)),
         openSwept(sweptOpener(simd)),
+        openContacts(contactOpener(simd)),
+        openSweptContacts(sweptContactOpener(simd)),
         openNear(nearOpener(simd)),
         pairCull(pairCullKernel(simd)),
         sweptPairCull(sweptPairCullKernel(simd)),
@@ -36,7 +38,7 @@ struct LmdScratch::Data {
   std::vector<Minimum> minima;
   std::vector<std::uint32_t> order;
   MergeWork merge;
-  Opener open, openSwept, openNear;
+  Opener open, openSwept, openContacts, openSweptContacts, openNear;
   PairCullKernel pairCull;
   SweptPairCullKernel sweptPairCull;
   SegmentKernel segmentCull;

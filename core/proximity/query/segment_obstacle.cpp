@@ -31,13 +31,13 @@ bool SegmentObstacle::blocks(const glm::dvec3& start, const glm::dvec3& directio
   std::size_t size = 0;
   // The root has one child, which holds everything; it is a leaf in a tree of a single feature.
   const std::uint32_t top = tree_.nodes()[0].child[0];
-  stack[size++] = NormalConeTree::isLeaf(top) ? 0 : top;
+  stack[size++] = NormalConeTree::isLeaf(top) ? 0 : NormalConeTree::nodeIndex(top);
   while (size > 0) {
     const NormalConeTree::Node& node = tree_.nodes()[stack[--size]];
     for (std::uint32_t lanes = kernel_(node, bound); lanes != 0; lanes &= lanes - 1) {
       const std::uint32_t child = node.child[static_cast<std::size_t>(std::countr_zero(lanes))];
       if (!NormalConeTree::isLeaf(child)) {
-        stack[size++] = child;
+        stack[size++] = NormalConeTree::nodeIndex(child);
       } else if (NormalConeTree::leafKind(child) == FeatureKind::Face) {
         addFaceTo(passage, tree_, NormalConeTree::leafIndex(child));
         if (passage.isClosed()) return true;

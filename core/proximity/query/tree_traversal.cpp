@@ -1,6 +1,7 @@
 #include "core/proximity/query/tree_traversal.h"
 
 #include "core/proximity/query/box_cull.h"
+#include "core/proximity/query/leaf_pair.h"
 
 namespace nearfit {
 namespace {
@@ -30,7 +31,8 @@ NEARFIT_INLINE Opening take(TraversalWork& work) {
   o.isScene = NormalConeTree::isLeaf(p.part) ||
               (!NormalConeTree::isLeaf(p.scene) && p.sceneSizeSquared >= p.partSizeSquared);
   const std::uint32_t otherAt = o.isScene ? p.partLane : p.sceneLane;
-  o.opened = o.isScene ? work.scene + p.scene : work.part + p.part;
+  o.opened = o.isScene ? work.scene + NormalConeTree::nodeIndex(p.scene)
+                       : work.part + NormalConeTree::nodeIndex(p.part);
   o.other = (o.isScene ? work.part : work.scene) + otherAt / kWidth;
   o.otherLane = otherAt % kWidth;
   return o;
@@ -58,8 +60,14 @@ NEARFIT_INLINE Poses<Floats8> posesOf(const SinglePose& pose) {
   return {column(0), column(1), column(2), column(3)};
 }
 
-/// Targets of an opener: minima, minima at all poses of the work's sweep, or near faces.
-enum class Aim { Minima, SweptMinima, NearFaces };
+/// Targets of an opener: minima or contacts, the same at all poses of the work's sweep, or near faces.
+enum class Aim { Minima, SweptMinima, Contacts, SweptContacts, NearFaces };
+constexpr bool isSwept(Aim aim) {
+  return aim == Aim::SweptMinima || aim == Aim::SweptContacts;
+}
+constexpr bool isForContacts(Aim aim) {
+  return aim == Aim::Contacts || aim == Aim::SweptContacts;
+}
 
 template <Aim kAim>
 NEARFIT_INLINE simd::Lanes<Floats8> test(const TraversalWork& work, const Opening& o) {
@@ -68,12 +76,21 @@ NEARFIT_INLINE simd::Lanes<Floats8> test(const TraversalWork& work, const Openin
   simd::move(other, posesOf(o.isScene ? work.sceneFromPart : work.partFromScene));
   if constexpr (kAim == Aim::NearFaces) {
     return simd::cullByPlace(own, other, work.limits);
-  } else if constexpr (kAim == Aim::Minima) {
-    return simd::cull(own, other, work.limits, simd::still<Floats8>(work.limits));
-  } else {
+  } else if constexpr (isSwept(kAim)) {
     const simd::Sweeps<Floats8> sweep = simd::spread(o.isScene ? work.inScene : work.inPart);
     return simd::cull(own, other, work.limits, simd::swept(own, other, sweep, work.limits));
+  } else {
+    return simd::cull(own, other, work.limits, simd::still<Floats8>(work.limits));
   }
+}
+
+/// The lanes of the opened node that can form contacts with the other child.
+NEARFIT_INLINE std::uint32_t contactLanes(const Opening& o) {
+  const FeatureKind other = NormalConeTree::lowestKind(o.isScene ? o.pair.part : o.pair.scene);
+  std::uint32_t lanes = 0;
+  for (std::uint32_t lane = 0; lane < kWidth; ++lane)
+    lanes |= (spansContact(NormalConeTree::lowestKind(o.opened->child[lane]), other) ? 1U : 0U) << lane;
+  return lanes;
 }
 
 /// True if a child is a leaf but not a face.
@@ -85,7 +102,8 @@ NEARFIT_INLINE bool isPointOrEdge(std::uint32_t child) {
 template <Aim kAim>
 NEARFIT_INLINE void keep(TraversalWork& work, const Opening& o, std::uint32_t lanes) {
   const EntryPair& p = o.pair;
-  const std::uint32_t node = kWidth * (o.isScene ? p.scene : p.part);
+  const std::uint32_t node = kWidth * NormalConeTree::nodeIndex(o.isScene ? p.scene : p.part);
+  if constexpr (isForContacts(kAim)) lanes &= contactLanes(o);
   for (; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
     EntryPair e = p;
@@ -102,7 +120,8 @@ NEARFIT_INLINE void keep(TraversalWork& work, const Opening& o, std::uint32_t la
     const bool isLeaves = NormalConeTree::isLeaf(e.scene) && NormalConeTree::isLeaf(e.part);
     // In a mesh of a million triangles the node is in no cache, and it will be opened soon.
     if (!NormalConeTree::isLeaf(child)) {
-      const char* next = reinterpret_cast<const char*>((o.isScene ? work.scene : work.part) + child);
+      const char* next = reinterpret_cast<const char*>((o.isScene ? work.scene : work.part) +
+                                                       NormalConeTree::nodeIndex(child));
       for (std::size_t line = 0; line < sizeof(Node); line += 64)
         __builtin_prefetch(next + line);
     }
@@ -185,7 +204,7 @@ NEARFIT_AVX512 void openAvx512(TraversalWork& work) noexcept {
     simd::Lanes<Floats16> margin;
     if constexpr (kAim == Aim::NearFaces) {
       margin = simd::cullByPlace(own, other, work.limits);
-    } else if constexpr (kAim == Aim::SweptMinima) {
+    } else if constexpr (isSwept(kAim)) {
       const simd::Sweeps<Floats16>& sweep = sweeps[first.isScene ? 1 : 0][second.isScene ? 1 : 0];
       margin = simd::cull(own, other, work.limits, simd::swept(own, other, sweep, work.limits));
     } else {
@@ -215,6 +234,12 @@ Opener opener(SimdLevel level) noexcept {
 }
 Opener sweptOpener(SimdLevel level) noexcept {
   return openerFor<Aim::SweptMinima>(level);
+}
+Opener contactOpener(SimdLevel level) noexcept {
+  return openerFor<Aim::Contacts>(level);
+}
+Opener sweptContactOpener(SimdLevel level) noexcept {
+  return openerFor<Aim::SweptContacts>(level);
 }
 Opener nearOpener(SimdLevel level) noexcept {
   return openerFor<Aim::NearFaces>(level);

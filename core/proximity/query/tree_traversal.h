@@ -45,6 +45,9 @@ using Opener = void (*)(TraversalWork& work) noexcept;
 Opener opener(SimdLevel level) noexcept;
 /// The same for every pose along the sweep; takes about half as long again.
 Opener sweptOpener(SimdLevel level) noexcept;
+/// Both for contacts: they find only pairs of leaves that can form one (spansContact()), and open no nodes without.
+Opener contactOpener(SimdLevel level) noexcept;
+Opener sweptContactOpener(SimdLevel level) noexcept;
 /// Opener for faces within the cutoff of each other, whatever their directions: finds only pairs of faces,
 /// and drops none of those. For surfaces without a side, and to find out if bodies meet.
 Opener nearOpener(SimdLevel level) noexcept;

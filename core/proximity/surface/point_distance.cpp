@@ -95,7 +95,7 @@ class PointSearch {
     if (NormalConeTree::isLeaf(top)) {
       open(0);
     } else {
-      open(top);
+      open(NormalConeTree::nodeIndex(top));
     }
     while (count_ > 0) {
       const Waiting next = waiting_[--count_];
@@ -103,7 +103,7 @@ class PointSearch {
       if (NormalConeTree::isLeaf(next.child)) {
         measure(NormalConeTree::leafIndex(next.child));
       } else {
-        open(next.child);
+        open(NormalConeTree::nodeIndex(next.child));
       }
     }
   }

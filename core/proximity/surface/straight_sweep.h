@@ -120,10 +120,10 @@ void openLarger(StraightSweep& sweep, const SweptEntry& scene, const SweptEntry&
   const bool isSceneLeaf = NormalConeTree::isLeaf(scene.child);
   const bool isPartLeaf = NormalConeTree::isLeaf(part.child);
   if (isPartLeaf || (!isSceneLeaf && scene.box.size() > part.box.size())) {
-    for (const SweptEntry& s : sweep.sceneChildren(scene.child))
+    for (const SweptEntry& s : sweep.sceneChildren(NormalConeTree::nodeIndex(scene.child)))
       visit(s, part);
   } else {
-    for (const SweptEntry& p : sweep.partChildren(part.child))
+    for (const SweptEntry& p : sweep.partChildren(NormalConeTree::nodeIndex(part.child)))
       visit(scene, p);
   }
 }

@@ -104,11 +104,12 @@ void CandidateList::build(const BodyPairQuery& query, const MotionRange& range, 
   LmdScratch::Data& workspace = scratch.data();
   const RangeLimits limits = limitsWithin(1.0);
   const auto outermost = static_cast<std::uint8_t>(hasLevels ? kLevels.size() - 1 : 0);
-  TreeTraversal traversal(*scene_, *part_, pose_, limits.still, workspace.openSwept, workspace.traversal);
+  TreeTraversal traversal(*scene_, *part_, pose_, limits.still,
+                          relaxation_ > 0.0 ? workspace.openSweptContacts : workspace.openSwept,
+                          workspace.traversal);
   traversal.setSweep(limits.inScene, limits.inPart);
   isUsable_ = traversal.run(
       [&](const EntryPair& pair) {
-        if (relaxation_ > 0.0 && !spansContact(pair.scene, pair.part)) return;
         if (found_.size() <= bounds.pairs) found_.push_back({pair.sceneLane, pair.partLane, outermost});
       },
       bounds.nodePairs);

@@ -277,6 +277,12 @@ TEST_F(TreeCacheDamage, ChildrenThatMakeNoTreeAreFoundWhateverTheChecksumsSay) {
   EXPECT_EQ(takenWithChild(1, 0, 1), Taken::Mesh) << "its own child";
   EXPECT_EQ(takenWithChild(1, 0, 0), Taken::Mesh) << "its parent's parent";
   EXPECT_EQ(takenWithChild(1, 0, nodes), Taken::Mesh) << "beyond the last";
+  ASSERT_FALSE(NormalConeTree::isLeaf(second.child[0]));
+  for (const FeatureKind kind : {FeatureKind::Vertex, FeatureKind::Edge, FeatureKind::Face}) {
+    const std::uint32_t child = NormalConeTree::nodeChild(NormalConeTree::nodeIndex(second.child[0]), kind);
+    EXPECT_EQ(takenWithChild(1, 0, child), child == second.child[0] ? Taken::Both : Taken::Mesh)
+        << "lowest kind below it";
+  }
   EXPECT_EQ(takenWithChild(0, 0, NormalConeTree::kNoChild), Taken::Mesh) << "no root";
   EXPECT_EQ(takenWithChild(0, 1, 1), Taken::Mesh) << "two roots";
   for (const std::uint32_t kind : {0U, 1U, 2U, 3U}) {

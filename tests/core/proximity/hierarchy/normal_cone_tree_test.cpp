@@ -1,5 +1,6 @@
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -28,7 +29,7 @@ void forEachLeafBelow(const NormalConeTree& tree,
             visit(b, child);
           return;
         }
-        const NormalConeTree::Node& node = tree.nodes()[child];
+        const NormalConeTree::Node& node = tree.nodes()[NormalConeTree::nodeIndex(child)];
         for (std::size_t lane = 0; lane < NormalConeTree::kWidth; ++lane) {
           if (node.child[lane] == NormalConeTree::kNoChild) continue;
           above.push_back(node.bound(lane));
@@ -124,6 +125,31 @@ TEST(NormalConeTree, EachBoundHoldsTheDirectionsOfTheFeaturesBelowIt) {
     });
   }
   EXPECT_GT(checked, 10000U);
+}
+
+TEST(NormalConeTree, EachNodeNamesTheLowestKindBelowIt) {
+  // The box has no vertices below some nodes, once its faces are flats; the star is so large that its first levels are
+  // built apart from the rest.
+  std::array<std::size_t, 3> named{};
+  for (const TriangleMesh& mesh :
+       {test::starMesh(7, 1.0, 5, 0.1), test::subdivided(test::boxMesh({1, 2, 3}), 4)}) {
+    const NormalConeTree tree(mesh);
+    std::function<FeatureKind(std::uint32_t)> lowestBelow = [&](std::uint32_t child) {
+      if (NormalConeTree::isLeaf(child)) return NormalConeTree::leafKind(child);
+      FeatureKind lowest = FeatureKind::Face;
+      for (const std::uint32_t c : tree.nodes()[NormalConeTree::nodeIndex(child)].child) {
+        if (c == NormalConeTree::kNoChild) continue;
+        const FeatureKind below = lowestBelow(c);
+        EXPECT_EQ(NormalConeTree::lowestKind(c), below);
+        lowest = std::min(lowest, below);
+        if (!NormalConeTree::isLeaf(c)) ++named[static_cast<std::size_t>(below)];
+      }
+      return lowest;
+    };
+    lowestBelow(0);
+  }
+  for (const std::size_t count : named)
+    EXPECT_GT(count, 0U);
 }
 
 }  // namespace

@@ -31,7 +31,10 @@ class Bodies {
   explicit Bodies(BodyPair p) : pair(std::move(p)), scene(pair.scene), part(pair.part) {
     for (const std::uint32_t s : leavesOf(scene)) {
       for (const std::uint32_t m : leavesOf(part)) {
-        if (spansContact(s, m)) all.push_back({s, m});
+        const FeatureKind a = NormalConeTree::leafKind(s), b = NormalConeTree::leafKind(m);
+        if ((a != FeatureKind::Face || b == FeatureKind::Vertex) &&
+            (b != FeatureKind::Face || a == FeatureKind::Vertex))
+          all.push_back({s, m});
       }
     }
     room.resize(all.size());
