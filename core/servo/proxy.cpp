@@ -324,7 +324,7 @@ Proxy::Outcome Proxy::settle(const Tick& tick, Verdict verdict) noexcept {
   stride_ = StepJudge::kHalf * trial_.travel;
   if (!trial_.isFree && !trial_.isTarget) return settleProgram(tick, verdict);
   if (!trial_.isFree && verdict != Verdict::Unknown) return Outcome::Stuck;
-  if (!trial_.isFree || trial_.shortenings == kMaxShortenings)
+  if (trial_.shortenings == kMaxShortenings)
     return verdict == Verdict::Unknown ? Outcome::Behind : Outcome::Stuck;
   shorten(tick, StepJudge::kHalf);
   return Outcome::Moved;
@@ -511,6 +511,7 @@ Proxy::Outcome Proxy::planProgram(const Tick& tick, const StepGoal& goal, bool i
   trial_.isPinched = isPinched;
   if (solution.activeCount == 0 && solution.scale == 1.0 && solution.share == 1.0 &&
       isTargetInReach(tick, rows_.hold, goal.reach)) {
+    trial_.motion = motionBetween(*tick.tracked.scene, pose_, tick.target);
     setTrialToTarget(tick, wayTo(tick));
     return Outcome::Moved;
   }

@@ -34,8 +34,13 @@ constexpr double kUsualTriangleRoom = 8.0, kLeastTriangleRoom = 1.0;
 /// Share of that room that must be left at a pose, and for a part that is starved.
 constexpr double kTriangleRoomToKeep = 0.5, kTriangleRoomIfStarved = 0.98;
 
-/// Ticks after which pairs that were made ready in time are claimed.
-constexpr double kTicksToClaim = 8.0;
+/// Beyond so many pairs of nodes, some 2.5 ms, a search for contacts is worth a list that serves long.
+constexpr std::uint64_t kLongSearch = 1U << 15;
+/// Such a list begins so many ticks before the former one ends, if it is ready then,
+constexpr double kOverlap = 2.0;
+/// and its pairs are claimed where the part has come so far on the former one's way. Where it goes from there is seen by
+/// its pose so many ticks later.
+constexpr double kShareAtClaim = 0.9, kTicksAheadOfClaim = 4.0;
 /// Max bodies whose pairs are prepared.
 constexpr std::size_t kMaxPrepared = 2;
 
@@ -102,10 +107,12 @@ void SceneTracker::update(const TickObservation& tick, double ticks) noexcept {
   steady_.observe(tick.worldFromPart, ticks);
   isWaiting_ = tick.isWaiting;
   isStarved_ = tick.isStarved;
-  isCrowded_ = tick.isCrowded;
+  isAlong_ = tick.isCrowded || std::ranges::any_of(current_.near, [this](const TrackedScene::Near& entry) {
+               return memory_[entry.body].isSearchLong;
+             });
   if (isStarved_)
-    forecast_.goAs(isCrowded_ ? steadyHand_ : hand_);
-  else if (isCrowded_)
+    forecast_.goAs(isAlong_ ? steadyHand_ : hand_);
+  else if (isAlong_)
     forecast_.moveAs(steady_);
 }
 
@@ -123,17 +130,17 @@ ListPurpose SceneTracker::forMinima(const SearchReach& reach) const noexcept {
 
 ListPurpose SceneTracker::forContacts(const SearchReach& reach) const noexcept {
   const CandidateList::Bounds along{ManyPairs::kMax, 1U << 18};
-  const double cutoff = isCrowded_ ? reachOfThousands(reach.contact) : reach.contact;
+  const double cutoff = isAlong_ ? reachOfThousands(reach.contact) : reach.contact;
   const double turn = contactTurn(cutoff, current_.scene->metric.radius);
   // The proxy tries steps before it takes them, so there must be room for some, even around a part at rest.
   return {.cutoff = cutoff,
           .planCutoff = reach.widest(),
           .relaxation = turn,
           .leastRoom = {2.0 * reach.contact, 2.0 * turn},
-          .isAlong = isCrowded_,
-          .whole = isCrowded_ ? along : CandidateList::Bounds{1U << 15, 1U << 16},
+          .isAlong = isAlong_,
+          .whole = isAlong_ ? along : CandidateList::Bounds{1U << 15, 1U << 16},
           // A tick goes through a whole list several times.
-          .part = isCrowded_ ? along : CandidateList::Bounds{1U << 16, 1U << 18},
+          .part = isAlong_ ? along : CandidateList::Bounds{1U << 16, 1U << 18},
           .least = {1U << 17, 1U << 20},
           // A starved part gets a list around it; if there is already one, no other is better.
           .roomToKeep = isStarved_ ? 0.98 : 0.5};
@@ -259,19 +266,45 @@ void SceneTracker::findNear(const SearchReach& reach, const std::vector<TrackedS
     Memory& memory = memory_[entry.body];
     if (!(reach.contact > 0.0)) memory = {};
     entry.list = renewed(old.list, entry.body, forMinima(reach), memory.minima);
-    if (hasContacts(entry.body, reach)) {
-      entry.contacts =
-          renewed(old.contacts, entry.body, forContacts(reach), isCrowded_ ? memory.along : memory.contacts);
-      const bool isSame = entry.contacts && entry.contacts == old.contacts;
-      // A part that does not wait goes on with the former ones for a while.
-      const double ticks = old.prepared && !isStarved_ ? kTicksToClaim : 1.0;
-      entry.prepared = isSame ? old.prepared : prepared(entry.body, entry.contacts.get(), ticks, reach);
-      entry.formerPrepared = isSame ? old.formerPrepared : old.prepared;
-    }
+    if (hasContacts(entry.body, reach)) renewContacts(entry, old, reach);
     if (hasTriangles(entry.body, reach))
       entry.triangles = renewedTriangles(old.triangles, entry.body, reach, memory.triangles);
     return false;
   });
+}
+
+double SceneTracker::ticksTo(double share, const CandidateList& list, std::uint32_t body) const noexcept {
+  constexpr double kBetween = 2.0, kMinRate = 1e-3;
+  const auto timeIn = [&](double ticks) {
+    return list.timeAt(pairOf(body).queryAt(forecast_.poseIn(ticks), list.cutoff()).sceneFromPart);
+  };
+  const double time = timeIn(1.0), rate = (timeIn(1.0 + kBetween) - time) / kBetween;
+  if (!(std::abs(time) < 1.0) || !(std::abs(rate) > kMinRate)) return 1.0;
+  return std::max(1.0, 1.0 + ((rate > 0.0 ? share : -share) - time) / rate);
+}
+
+void SceneTracker::renewContacts(TrackedScene::Near& entry, const TrackedScene::Near& old,
+                                 const SearchReach& reach) {
+  Memory& memory = memory_[entry.body];
+  ListPurpose purpose = forContacts(reach);
+  // A part that does not wait goes on with the former list to its end.
+  const CandidateList* const former = isAlong_ && !isStarved_ ? old.contacts.get() : nullptr;
+  if (former != nullptr)
+    purpose.begin = std::clamp(ticksTo(1.0, *former, entry.body) - kOverlap, 0.0, forecast_.lead());
+  entry.contacts = renewed(old.contacts, entry.body, purpose, isAlong_ ? memory.along : memory.contacts);
+  if (entry.contacts && entry.contacts == old.contacts) {
+    entry.prepared = old.prepared;
+    entry.formerPrepared = old.formerPrepared;
+    return;
+  }
+  memory.isSearchLong = !entry.contacts || entry.contacts->searchWork() > kLongSearch;
+  const auto poseAt = [&](double later) {
+    return former != nullptr && old.prepared
+               ? forecast_.poseIn(ticksTo(kShareAtClaim, *former, entry.body) + later)
+               : forecast_.poseAfterwards(1.0 + later);
+  };
+  entry.prepared = prepared(entry.body, entry.contacts.get(), poseAt(0.0), poseAt(kTicksAheadOfClaim), reach);
+  entry.formerPrepared = old.prepared;
 }
 
 std::shared_ptr<const CandidateList> SceneTracker::renewed(const std::shared_ptr<const CandidateList>& former,
@@ -296,17 +329,19 @@ PairPreparer* SceneTracker::preparerOf(std::uint32_t body) {
 }
 
 std::shared_ptr<PreparedPairs> SceneTracker::prepared(std::uint32_t body, const CandidateList* list,
-                                                      double ticks, const SearchReach& reach) {
+                                                      const RigidTransform& claimed,
+                                                      const RigidTransform& ahead, const SearchReach& reach) {
   if (list == nullptr || !(list->cutoff() < reach.contact) || list->size() < ManyPairs::kFew ||
       list->size() > ManyPairs::kMax)
     return nullptr;
   PairPreparer* const preparer = preparerOf(body);
   if (preparer == nullptr) return nullptr;
   const std::shared_ptr<PreparedPairs> out = spareOf(preparedPairs_);
-  const RigidTransform at =
-      pairOf(body).queryAt(forecast_.poseAfterwards(ticks), reach.contact).sceneFromPart;
-  preparer->prepare(*current_.scene, current_.scene->bodies[body], *list, at, reach.contact, nextSerial(),
-                    *out);
+  const auto inBody = [&](const RigidTransform& pose) {
+    return pairOf(body).queryAt(pose, reach.contact).sceneFromPart;
+  };
+  preparer->prepare(*current_.scene, current_.scene->bodies[body], *list, inBody(claimed), inBody(ahead),
+                    reach.contact, nextSerial(), *out);
   return out;
 }
 

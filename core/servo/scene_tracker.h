@@ -79,21 +79,30 @@ class SceneTracker {
   /// A body's preparer; null if all are others'.
   PairPreparer* preparerOf(std::uint32_t body);
   /// The pairs of a list, if they are thousands.
-  /// @param ticks  Ticks until they are claimed, once they are ready.
-  std::shared_ptr<PreparedPairs> prepared(std::uint32_t body, const CandidateList* list, double ticks,
+  /// @param claimed  Pose of the part at which they will be claimed.
+  /// @param ahead    Pose a little later.
+  std::shared_ptr<PreparedPairs> prepared(std::uint32_t body, const CandidateList* list,
+                                          const RigidTransform& claimed, const RigidTransform& ahead,
                                           const SearchReach& reach);
+  /// Renews the list of a body's contacts, and their pairs, where it is due.
+  void renewContacts(TrackedScene::Near& entry, const TrackedScene::Near& old, const SearchReach& reach);
+  /// Ticks from now until the part has come so far on the way of a list; at least 1, and 1 if it is not on that way.
+  double ticksTo(double share, const CandidateList& list, std::uint32_t body) const noexcept;
   TrackedPair pairOf(std::uint32_t body) const noexcept;
 
   TrackedScene current_;
   /// For each body of the scene: how much of a plan its recent lists could cover.
   struct Memory {
     PlanMemory minima, contacts, along;
-    double triangles = 1.0;  ///< Share of a plan's motion that the last list of triangles covers.
+    bool isSearchLong = false;  ///< The last search for contacts took long, or found no list.
+    double triangles = 1.0;     ///< Share of a plan's motion that the last list of triangles covers.
   };
   std::vector<Memory> memory_;
   std::uint64_t lastSerial_ = 0;  ///< Of the last clearance.
   double clearanceAge_ = 0.0;     ///< [ticks]
-  bool isWaiting_ = false, isStarved_ = false, isCrowded_ = false;
+  bool isWaiting_ = false, isStarved_ = false;
+  /// Lists of contacts are to serve long along the part's way and little aside: it is crowded, or searches take long.
+  bool isAlong_ = false;
   MotionForecast forecast_, hand_;
   MotionForecast steady_, steadyHand_;  ///< The same where lists serve long: MotionForecast::steady().
   LmdScratch scratch_;

@@ -97,6 +97,7 @@ void CandidateList::build(const BodyPairQuery& query, const MotionRange& range, 
   relaxation_ = relaxation;
   range_ = range;
   isUsable_ = true;
+  searchWork_ = 0;
   found_.clear();
   levelEnds_.fill(0);
   if (!isQueryValid(query.scene, query.part, query.sceneFromPart, query.cutoff)) return;
@@ -113,6 +114,7 @@ void CandidateList::build(const BodyPairQuery& query, const MotionRange& range, 
         if (found_.size() <= bounds.pairs) found_.push_back({pair.sceneLane, pair.partLane, outermost});
       },
       bounds.nodePairs);
+  searchWork_ = traversal.nodePairs();
   isUsable_ = isUsable_ && found_.size() <= bounds.pairs;
   if (!isUsable_) {
     found_.clear();

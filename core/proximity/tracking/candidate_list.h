@@ -92,6 +92,8 @@ class CandidateList {
   /// Adds all pairs to a vector.
   void appendPairs(std::vector<LeafPair>& out) const;
 
+  /// Pairs of nodes that the last build opened.
+  std::uint64_t searchWork() const noexcept { return searchWork_; }
   /// Number of pairs.
   std::size_t size() const noexcept { return levelEnds_.back(); }
   /// False before build(), and if the last build exceeded its bounds.
@@ -143,6 +145,7 @@ class CandidateList {
   std::vector<LanePair> found_;
   std::array<std::size_t, kLevels.size()> levelEnds_{};
   bool isUsable_ = false;
+  std::uint64_t searchWork_ = 0;
   const NormalConeTree *scene_ = nullptr, *part_ = nullptr;
   RigidTransform pose_;  ///< Between the trees' centred frames.
   double cutoff_ = 0.0, relaxation_ = 0.0;

@@ -21,13 +21,13 @@ struct PlanPart {
 };
 constexpr std::array<PlanPart, 4> kParts{{{1.0, 1.0}, {1.0, 0.5}, {0.5, 0.25}, {0.2, 0.1}}};
 /// The same where a list is to serve long along the way: lengths of the way, in min budgets for deviation, and shares of that
-/// budget. How many pairs there are depends on the length, whatever the speed: a part that waited will go faster.
-constexpr std::array<PlanPart, kParts.size()> kPartsAlong{
-    {{6.0, 0.12}, {4.5, 0.12}, {3.0, 0.12}, {1.0, 0.1}}};
+/// budget. How many pairs there are depends on the length, whatever the speed: a part that waited will go faster. The first
+/// is for a part that is loose: few pairs are so near.
+constexpr std::array<PlanPart, kParts.size()> kPartsAlong{{{8.0, 0.5}, {6.0, 0.12}, {4.5, 0.12}, {2.5, 0.1}}};
 /// Such a list is for no more ticks than these.
 constexpr double kMostTicks = 64.0;
-/// It is renewed after this time on its way: steps look ahead, and the search takes a while.
-constexpr double kTimeToRenew = 0.0;
+/// It is renewed after this time on its way, since steps look ahead; earlier if its end is no more leads away than these.
+constexpr double kTimeToRenew = 0.0, kLeadsToSpare = 1.5;
 /// After this many lists for less of a plan, or skipped attempts, more is tried; at once if a list holds less
 /// than kFewPairs of the pairs that it may.
 constexpr unsigned kBuildsBetweenTries = 16;
@@ -36,8 +36,8 @@ constexpr double kFewPairs = 1.0 / 8.0;
 SearchPlan planFor(const MotionForecast& forecast, const ListPurpose& purpose, std::size_t level) noexcept {
   if (purpose.isAlong) {
     const double way = kPartsAlong[level].way * purpose.leastRoom.travel, speed = forecast.speed();
-    SearchPlan plan =
-        forecast.planOfTicks(purpose.planCutoff, way < kMostTicks * speed ? way / speed : kMostTicks);
+    SearchPlan plan = forecast.planOfTicks(purpose.planCutoff, purpose.begin,
+                                           way < kMostTicks * speed ? way / speed : kMostTicks);
     // Where there is hardly a way, there is room for more aside.
     const bool isSlow = kMostTicks * speed < purpose.leastRoom.travel;
     plan.range.budget = (isSlow ? kParts : kPartsAlong)[level].aside * purpose.leastRoom;
@@ -75,6 +75,7 @@ bool willServe(const CandidateList& list, const TrackedPair& pair, const MotionF
     return list.timeAt(pair.queryAt(forecast.poseAfterwards(ticks), purpose.cutoff).sceneFromPart);
   };
   const double now = timeAfter(1.0);
+  if (std::abs(timeAfter(kLeadsToSpare * forecast.lead())) > 1.0) return false;
   const bool isGoingBack = timeAfter(2.0) < now;
   // One that hardly moves stays within the list for long, whichever way it goes.
   return (isGoingBack ? -now : now) <= kTimeToRenew || std::abs(timeAfter(0.5 * kMostTicks)) <= 1.0;

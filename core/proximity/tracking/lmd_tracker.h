@@ -36,7 +36,8 @@ struct ListPurpose {
   double planCutoff = 0.0;   ///< Bounds the budget for deviation [m]: the cutoff, or a wider one.
   double relaxation = 0.0;   ///< As in CandidateList::build [rad].
   MotionBudget leastRoom{};  ///< Min budget for deviation from the forecast.
-  bool isAlong = false;      ///< The list is to serve long along the forecast's way and little aside.
+  bool isAlong = false;      ///< The list is to serve long along the forecast's way and little aside,
+  double begin = 0.0;        ///< and to begin so many ticks from now.
   /// Bounds of a list for the whole plan, for a part of it, and for the smallest part.
   CandidateList::Bounds whole{1U << 14, 1U << 14}, part{}, least{};
 

@@ -34,6 +34,8 @@ double windowOf(double lead) noexcept {
 
 /// Max lead. A longer lead needs wider lists, which take longer to search: beyond this it would never end.
 constexpr double kMaxLead = 3.0;
+/// The same for plans whose length does not depend on it.
+constexpr double kMaxLongLead = 32.0;
 
 /// Factor by which the stretch is longer than the window, at both ends.
 constexpr double kMargin = 1.2;
@@ -110,6 +112,7 @@ void MotionForecast::observe(const RigidTransform& pose, double ticks) noexcept 
     fastest_ = memory * fastest_;
     error_ = memory * error_;
     lead_ *= memory;
+    longestLead_ *= memory;
     const bool isJump = motion.travel > std::max(kJump * fastest_.travel,
                                                  (isSteady_ ? kJumpOfSteps : kJumpOfRadius) * radius_);
     if (!isJump || wasJump_) {
@@ -151,17 +154,18 @@ void MotionForecast::checkProbe(const RigidTransform& centred, double ticks) noe
 
 void MotionForecast::setLead(double ticks) noexcept {
   lead_ = std::max(lead_, std::min(ticks, kMaxLead));
+  longestLead_ = std::max(longestLead_, std::min(ticks, kMaxLongLead));
   generosity_ = std::clamp(generosity_ * (ticks < kShortLead ? kMoreRoom : kLessRoom), 1.0, kMaxGenerosity);
 }
 
-RigidTransform MotionForecast::poseAhead(double ticks) const noexcept {
+RigidTransform MotionForecast::poseIn(double ticks) const noexcept {
   const RigidTransform centred{pose_.rotation, pose_.applyToPoint(centre_)};
   const RigidTransform to = ahead(centred, velocity_, trend_, ticks);
   return {to.rotation, to.translation - to.rotation * centre_};
 }
 
 RigidTransform MotionForecast::poseAfterwards(double ticks) const noexcept {
-  return poseAhead(isHeldUp_ ? ticks : lead_ + ticks);
+  return poseIn(isHeldUp_ ? ticks : lead_ + ticks);
 }
 
 double MotionForecast::speed() const noexcept {
@@ -169,17 +173,16 @@ double MotionForecast::speed() const noexcept {
 }
 
 SearchPlan MotionForecast::plan(double cutoff, double share) const noexcept {
-  const double begin = isHeldUp_ ? 0.0 : lead_;
-  return planOver(cutoff, share, share * (lead_ + windowOf(lead_) - begin));
-}
-
-SearchPlan MotionForecast::planOfTicks(double cutoff, double ticks) const noexcept {
-  return planOver(cutoff, 1.0, ticks);
-}
-
-SearchPlan MotionForecast::planOver(double cutoff, double share, double whole) const noexcept {
   // A held-up part begins where it is, however long the search takes.
   const double begin = isHeldUp_ ? 0.0 : lead_;
+  return planOver(cutoff, share, begin, share * (lead_ + windowOf(lead_) - begin));
+}
+
+SearchPlan MotionForecast::planOfTicks(double cutoff, double begin, double ticks) const noexcept {
+  return planOver(cutoff, 1.0, isHeldUp_ ? 0.0 : begin, ticks);
+}
+
+SearchPlan MotionForecast::planOver(double cutoff, double share, double begin, double whole) const noexcept {
   // Part of the travel comes from turning: the min travel must allow for the min turn.
   const double leastTravel = kMinTravel * cutoff + kMinTurn * radius_;
   const double mostTravel = std::max(leastTravel, kMaxTravel * cutoff);
@@ -196,7 +199,7 @@ SearchPlan MotionForecast::planOver(double cutoff, double share, double whole) c
     return generosity_ * std::min(growth * error, kMaxAside * half * fastest);
   };
   const double middle = begin + 0.5 * window;
-  SearchPlan plan{poseAhead(middle), {}};
+  SearchPlan plan{poseIn(middle), {}};
   plan.range.stretch = {limited(half * (velocity_.shift + middle * trend_.shift), mostTravel),
                         limited(half * (velocity_.spin + middle * trend_.spin), kMaxTurn)};
   plan.range.budget = {share * std::clamp(aside(fastest_.travel, error_.travel), leastTravel, mostTravel),

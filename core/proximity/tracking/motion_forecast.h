@@ -40,11 +40,15 @@ class MotionForecast {
   /// Reports the lead: ticks from the start of a search until a tick has its result; 0 if the tick waits for
   /// it. The longest recent lead counts.
   void setLead(double ticks) noexcept;
+  /// The lead that counts [ticks]. Plans that do not say when they begin count less of a long one.
+  double lead() const noexcept { return longestLead_; }
 
   /// Returns the pose expected in the first tick after a search that starts now; in the next if held up.
   RigidTransform poseWhenReady() const noexcept { return poseAfterwards(1.0); }
   /// The same so many ticks after the search has ended.
   RigidTransform poseAfterwards(double ticks) const noexcept;
+  /// Returns the pose expected in so many ticks from now.
+  RigidTransform poseIn(double ticks) const noexcept;
 
   /// Present motion of the part's farthest point [m per tick].
   double speed() const noexcept;
@@ -54,11 +58,11 @@ class MotionForecast {
   /// @param share   Share of the time that the result should serve; a smaller share leaves less to find.
   SearchPlan plan(double cutoff, double share = 1.0) const noexcept;
   /// The same for a result that serves for so many ticks, whatever the search takes.
-  SearchPlan planOfTicks(double cutoff, double ticks) const noexcept;
+  /// @param begin  Ticks from now until then; 0 for a part that is held up, however long the search takes.
+  SearchPlan planOfTicks(double cutoff, double begin, double ticks) const noexcept;
 
  private:
-  SearchPlan planOver(double cutoff, double share, double ticks) const noexcept;
-  RigidTransform poseAhead(double ticks) const noexcept;
+  SearchPlan planOver(double cutoff, double share, double begin, double ticks) const noexcept;
   void checkProbe(const RigidTransform& centred, double ticks) noexcept;
 
   glm::dvec3 centre_{0.0};
@@ -77,8 +81,8 @@ class MotionForecast {
     double age = 0.0;  ///< [ticks]
   };
   Probe probe_;
-  MotionBudget error_;  ///< Max recent deviation from the forecast path, one tick ahead.
-  double lead_ = 0.0;   ///< [ticks]
+  MotionBudget error_;                     ///< Max recent deviation from the forecast path, one tick ahead.
+  double lead_ = 0.0, longestLead_ = 0.0;  ///< At most kMaxLead, and at most kMaxLongLead [ticks].
   bool isSteady_ = false;
   double generosity_ = 1.0;  ///< Factor of the budget for deviation.
 };

@@ -14,6 +14,7 @@
 #include "core/math/rotation_vector.h"
 #include "core/proximity/query/lmd_query.h"
 #include "core/servo/tracked_scene.h"
+#include "tests/support/lmd_comparison.h"
 #include "tests/support/proxy_walk.h"
 #include "tests/support/ringed_pair.h"
 
@@ -90,7 +91,7 @@ TEST_F(RodAmongWaves, PreparedPairsFindTheLeastDistanceAndANearerContactForEachT
     const double t = 0.02 * static_cast<double>(serial);
     const CandidateList list = listAround(poseAt(t));
     ASSERT_GT(list.size(), 2 * ManyPairs::kFew);
-    preparer.prepare(scene(), tube(), list, poseAt(t), kContact, serial, prepared);
+    preparer.prepare(scene(), tube(), list, poseAt(t), poseAt(t + 0.002), kContact, serial, prepared);
     EXPECT_EQ(prepared.serial(), serial);
     ManyPairs* const pairs = prepared.claim(this);
     ASSERT_NE(pairs, nullptr);
@@ -113,7 +114,12 @@ TEST_F(RodAmongWaves, PreparedPairsFindTheLeastDistanceAndANearerContactForEachT
                                         }))
             << t << ", distance " << contact.distance;
       }
-      EXPECT_LE(seen.found.least, least + 1e-12) << t;
+      // Of a contact by relaxed conditions the features may be a little farther apart than it says.
+      double distance = std::numeric_limits<double>::infinity();
+      for (const Lmd& lmd :
+           test::allLmds(tube().geometry->tree(), scene().moving.geometry->tree(), pose, reach().distance))
+        distance = std::min(distance, lmd.distance);
+      EXPECT_LE(seen.found.least, distance + 1e-12) << t;
       if (least < 0.98 * kMargin) {
         EXPECT_GE(seen.found.least, least - 0.01 * need) << t;
       }
@@ -126,13 +132,13 @@ TEST_F(RodAmongWaves, PreparedPairsAreForTheFirstThatClaimsThem) {
   PairPreparer preparer;
   PreparedPairs prepared;
   const CandidateList list = listAround({});
-  preparer.prepare(scene(), tube(), list, {}, kContact, 1, prepared);
+  preparer.prepare(scene(), tube(), list, {}, {}, kContact, 1, prepared);
   const int one = 0, other = 0;
   ManyPairs* const pairs = prepared.claim(&one);
   EXPECT_NE(pairs, nullptr);
   EXPECT_EQ(prepared.claim(&other), nullptr);
   EXPECT_EQ(prepared.claim(&one), pairs);
-  preparer.prepare(scene(), tube(), list, {}, kContact, 2, prepared);
+  preparer.prepare(scene(), tube(), list, {}, {}, kContact, 2, prepared);
   EXPECT_NE(prepared.claim(&other), nullptr);
 }
 

@@ -136,6 +136,45 @@ TEST_F(StarvedRod, ListsOfOneThatWaitsHoldTheWayThatItsHandGoes) {
   }
 }
 
+// A nut that was loose on its bolt had few contacts, but the searches for them took as long as where it was pressed: their
+// lists ended before the next ones were there.
+TEST_F(StarvedRod, WhereSearchesTakeLongListsServeLongAndFollowEachOther) {
+  constexpr double kRate = 0.002, kLead = 20.0;
+  const auto go = [&] {
+    tracker_.update(test::partAt(turnedBy(seen_ += kRate)), 1.0);
+    tracker_.setLead(kLead);
+  };
+  const auto isHeld = [&](const TrackedScene& tracked, int ticks) {
+    return holds(tracked, turnedBy(seen_ + ticks * kRate));
+  };
+  for (int i = 0; i < 60; ++i)
+    go();
+  const TrackedScene first = refreshed();
+  ASSERT_TRUE(first.near.at(0).contacts);
+  EXPECT_EQ(first.near[0].contacts->cutoff(), kReach);
+  EXPECT_GT(first.near[0].contacts->searchWork(), std::uint64_t{1} << 15U);
+  go();
+  const TrackedScene second = refreshed();
+  ASSERT_TRUE(second.near.at(0).contacts);
+  EXPECT_LT(second.near[0].contacts->cutoff(), kReach) << "it serves along the way";
+  int end = 0;
+  while (isHeld(second, end))
+    ++end;
+  EXPECT_GT(end, 2 * static_cast<int>(kLead));
+  // It is renewed early enough to be used to its end.
+  int due = 0;
+  while (!tracker_.isDue(reach_)) {
+    go();
+    ASSERT_LT(++due, end);
+  }
+  const int left = end - due;
+  EXPECT_GT(left, static_cast<int>(kLead));
+  const TrackedScene third = refreshed();
+  for (int ticks = static_cast<int>(kLead); ticks < left + static_cast<int>(kLead); ++ticks)
+    EXPECT_TRUE(isHeld(third, ticks)) << ticks << " ticks on";
+  EXPECT_FALSE(isHeld(third, 0)) << "the way that it has passed by then";
+}
+
 /// A mesh without one of its triangles, which bounds nothing.
 TriangleMesh opened(const TriangleMesh& mesh) {
   return {{mesh.vertices().begin(), mesh.vertices().end()},

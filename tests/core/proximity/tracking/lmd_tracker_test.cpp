@@ -290,37 +290,55 @@ TEST(BuildForPlan, AListAlongAWayIsRenewedInItsMiddleWhicheverWayThePartGoes) {
   const MotionForecast start = forecast;
   ASSERT_TRUE(buildForPlan(list, pair, start, purpose, scratch, memory));
   ASSERT_EQ(memory.level, 0U);
-  // Its way is as long as six min budgets, at both ends a tenth longer.
-  for (const int tick : {0, 8, 15, 22, 30})
+  // Its way is as long as eight min budgets, at both ends a tenth longer.
+  for (const int tick : {0, 10, 20, 30, 40})
     EXPECT_LE(list.spent(along(tick)), 1.0) << tick;
-  EXPECT_GT(list.spent(along(35)), 1.0);
-  for (int tick = 1; tick <= 30; ++tick) {
+  EXPECT_GT(list.spent(along(50)), 1.0);
+  MotionForecast ofSlowSearch = forecast;
+  for (int tick = 1; tick <= 40; ++tick) {
     forecast.observe(along(tick), 1.0);
     // In the next tick it is in the middle.
-    if (tick < 13) {
+    if (tick < 18) {
       EXPECT_TRUE(willServe(list, pair, forecast, purpose)) << tick;
     }
-    if (tick > 17) {
+    if (tick > 22) {
       EXPECT_FALSE(willServe(list, pair, forecast, purpose)) << tick;
     }
+    // Where a search takes long it is renewed earlier, so as to be there in time.
+    ofSlowSearch.observe(along(tick), 1.0);
+    ofSlowSearch.setLead(20.0);
+    if (tick < 8) {
+      EXPECT_TRUE(willServe(list, pair, ofSlowSearch, purpose)) << tick;
+    }
+    if (tick > 12) {
+      EXPECT_FALSE(willServe(list, pair, ofSlowSearch, purpose)) << tick;
+    }
   }
+  // The next then begins where it is told to.
+  ListPurpose later = purpose;
+  later.begin = 20.0;
+  CandidateList next;
+  ASSERT_TRUE(buildForPlan(next, pair, start, later, scratch, memory));
+  EXPECT_GT(next.spent(along(8)), 1.0);
+  for (const int tick : {20, 40, 60})
+    EXPECT_LE(next.spent(along(tick)), 1.0) << tick;
   // One that stops, and stirs to either side, needs no other.
   MotionForecast resting = forecast;
   ASSERT_TRUE(buildForPlan(list, pair, forecast, purpose, scratch, memory));
   for (int tick = 0; tick < 200; ++tick) {
-    resting.observe(along(30.0 + 1e-3 * (tick % 7)), 1.0);
+    resting.observe(along(40.0 + 1e-3 * (tick % 7)), 1.0);
     if (tick > 40) {
       EXPECT_TRUE(willServe(list, pair, resting, purpose)) << tick;
     }
   }
   ASSERT_TRUE(buildForPlan(list, pair, start, purpose, scratch, memory));
   // The other way it serves until it is before its middle.
-  for (int tick = 30; tick >= 0; --tick) {
+  for (int tick = 40; tick >= 0; --tick) {
     forecast.observe(along(tick), 1.0);
-    if (tick < 24 && tick > 18) {
+    if (tick < 34 && tick > 24) {
       EXPECT_TRUE(willServe(list, pair, forecast, purpose)) << tick;
     }
-    if (tick < 12) {
+    if (tick < 16) {
       EXPECT_FALSE(willServe(list, pair, forecast, purpose)) << tick;
     }
   }

@@ -101,11 +101,11 @@ TEST(MotionForecast, ASteadyOneFollowsTheMeanMotionOfAPartThatGoesInSteps) {
     steady.observe(pose, 1.0);
   }
   EXPECT_NEAR(steady.speed(), glm::length(step), 0.15 * glm::length(step));
-  const MotionStretch& way = steady.planOfTicks(kCutoff, 40.0).range.stretch;
+  const MotionStretch& way = steady.planOfTicks(kCutoff, 0.0, 40.0).range.stretch;
   EXPECT_GT(glm::dot(glm::normalize(way.shift), glm::normalize(step)), 0.999);
   EXPECT_NEAR(glm::length(way.shift), 20.0 * glm::length(step), 6.0 * glm::length(step));
   // A way that would be longer than the cutoff ends earlier.
-  EXPECT_LE(glm::length(steady.planOfTicks(kCutoff, 4000.0).range.stretch.shift), kCutoff);
+  EXPECT_LE(glm::length(steady.planOfTicks(kCutoff, 0.0, 4000.0).range.stretch.shift), kCutoff);
   // The part that is led goes on from where it is.
   MotionForecast part(kCentre, kRadius);
   for (int tick = 0; tick < 40; ++tick)
@@ -114,6 +114,26 @@ TEST(MotionForecast, ASteadyOneFollowsTheMeanMotionOfAPartThatGoesInSteps) {
   const glm::dvec3 ahead = part.poseAfterwards(8.0).translation - pose.translation;
   EXPECT_GT(glm::dot(ahead, step), 0.0);
   EXPECT_NEAR(glm::length(ahead), 8.0 * glm::length(step), 2.0 * glm::length(step));
+}
+
+TEST(MotionForecast, APlanOfTicksBeginsWhenItIsToldAndNowIfThePartIsHeldUp) {
+  const glm::dvec3 step(1e-3, 0.0, 0.0);
+  MotionForecast forecast(kCentre, kRadius);
+  for (int tick = 0; tick < 40; ++tick)
+    forecast.observe({{1, 0, 0, 0}, static_cast<double>(tick) * step}, 1.0);
+  forecast.setLead(20.0);
+  EXPECT_EQ(forecast.lead(), 20.0);
+  const auto middle = [&](double begin) {
+    return (forecast.planOfTicks(kCutoff, begin, 10.0).pose.translation - forecast.pose().translation).x /
+           step.x;
+  };
+  EXPECT_NEAR(middle(0.0), 5.0, 0.1);
+  EXPECT_NEAR(middle(20.0), 25.0, 0.1);
+  EXPECT_NEAR((forecast.poseIn(20.0).translation - forecast.pose().translation).x, 20.0 * step.x,
+              0.1 * step.x);
+  const MotionForecast hand = forecast;
+  forecast.goAs(hand);
+  EXPECT_NEAR(middle(20.0), 5.0, 0.1);
 }
 
 TEST(MotionForecast, ALeaderThatHasSeenNothingChangesNothing) {
