@@ -71,8 +71,6 @@ constexpr std::uint64_t kWorkOfBody = 1;
 constexpr std::uint64_t kWorkOfPairTest = 2;
 /// Work of finding how near a pair comes on a way.
 constexpr std::uint64_t kWorkOfPassage = 1;
-/// Separations are to last for so many steps like the last one that was tried.
-constexpr double kStepsOfSeparation = 2.0;
 /// Bend of a way seen from the part, per turn and travel: its second derivative is at most twice their product.
 constexpr double kBendOfShift = 0.25;
 /// A pair that stays this far apart on a way is clear, as a share of the reach.
@@ -146,7 +144,6 @@ ContactFinder::ContactFinder()
 
 void ContactFinder::forget() noexcept {
   isHoldingPairs_ = false;
-  lastStep_.reset();
   giveUpLook();
   for (ManyOfBody& many : many_)
     many.body.reset();
@@ -591,11 +588,6 @@ bool ContactFinder::testMany(const ServoScene& scene, const HeldBody& held) noex
   if (look_.pair == 0) {
     ManyPairs::Asked asked = askedAmongThousands(
         scene, other, (other.worldFromPart.inverse() * look_.pose).normalized(), pairsReach_, askedReach_);
-    if (lastStep_) {
-      const MotionStretch way{kStepsOfSeparation * lastStep_->shift, kStepsOfSeparation * lastStep_->spin};
-      const RigidTransform ahead = poseOfMass(scene, middleOf(centredAtMass(scene, look_.pose), way));
-      asked.ahead = (other.worldFromPart.inverse() * ahead).normalized();
-    }
     if (look_.from) {
       const MotionBudget motion = motionOf(scene, *look_.from, look_.pose);
       const double near = scene.metric.radius + pairsReach_ + 2.0 * holds_.travel + stretchTravel_;
@@ -708,11 +700,6 @@ Surroundings ContactFinder::look(const TrackedScene& tracked, const RigidTransfo
                       worldFromPart == look_.pose && arePreparedCurrent(tracked);
   const Surroundings pending{.isPending = true};
   if (!isSame) {
-    if (step != nullptr) {
-      const MotionStretch half =
-          stretchBetween(centredAtMass(scene, step->from), centredAtMass(scene, worldFromPart));
-      lastStep_ = {2.0 * half.shift, 2.0 * half.spin};
-    }
     giveUpLook();
     if (workLeft() == 0) return pending;
     if (isFirstLook_) {

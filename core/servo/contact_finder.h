@@ -284,8 +284,6 @@ class ContactFinder {
   bool isFirstGathering_ = false;  ///< The tick has gathered nothing yet.
 
   Look look_;
-  /// Motion of the last step that was tried, as to the centre of mass.
-  std::optional<MotionStretch> lastStep_;
   std::uint64_t allowed_ = 0, workDone_ = 0, searchWorkLeft_ = 0, surfaceWorkLeft_ = 0;
   Excess excess_ = Excess::None;
   bool isBlind_ = false;        ///< Nothing is known of any pose of this tick.

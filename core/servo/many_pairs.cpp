@@ -330,8 +330,6 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
                                                 std::size_t& count) noexcept {
   const NormalConeTree &scene = *asked_.scene, &part = *asked_.part;
   const RigidTransform pose = centredPose(scene, part, asked_.sceneFromPart);
-  const std::optional<RigidTransform> ahead =
-      asked_.ahead ? std::optional(centredPose(scene, part, *asked_.ahead)) : std::nullopt;
   const LeafTests tests(scene, part, pose, asked_.reach.distance, asked_.reach.turn);
   const auto spend = [&work](std::uint64_t done) { work -= std::min(work, done); };
   Minimum minimum;
@@ -349,7 +347,7 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
     // A pair that is new in this look has just been separated at this very pose.
     if (slot.isKnown && look_ - slot.separated < (slot.isClose ? kLooksOfClose : 1)) return;
     slot.separated = look_;
-    const PairDirections directions = directionsOf(scene, part, slot.pair, pose, ahead);
+    const PairDirections directions = directionsOf(scene, part, slot.pair, pose);
     spend(kWorkOfSeparation);
     know(at, directions.apart, keyOf(directions.ofContact, directions.onPart));
     slot.isClose = directions.distance <= asked_.sure;

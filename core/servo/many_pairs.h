@@ -54,8 +54,6 @@ class ManyPairs {
     /// Beyond this, pairs that may be nearer than the nearest of their group are not tested again [m]; at most `need`.
     double sure = 0.0;
     double cell = 0.0;  ///< Size of the cells that points are grouped by [m]; > 0.
-    /// Pose that the part will soon be at, if known: separations are to last until then.
-    std::optional<RigidTransform> ahead{};
     /// The way that led there, if it is asked how near the pairs come on it; travel and bend apart.
     std::optional<PartWay> way{};
     /// No point of the other body strays farther from the straight line between its places at both ends, as seen from

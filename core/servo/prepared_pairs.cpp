@@ -38,8 +38,8 @@ ManyPairs::Asked askedAmongThousands(const ServoScene& scene, const ServoScene::
 }
 
 void PairPreparer::prepare(const ServoScene& scene, const ServoScene::Body& body, const CandidateList& list,
-                           const RigidTransform& sceneFromPart, const RigidTransform& ahead,
-                           double contactReach, std::uint64_t serial, PreparedPairs& out) {
+                           const RigidTransform& sceneFromPart, double contactReach, std::uint64_t serial,
+                           PreparedPairs& out) {
   contacts_.resize(kTaken);
   listed_.clear();
   list.appendPairs(listed_);
@@ -48,9 +48,7 @@ void PairPreparer::prepare(const ServoScene& scene, const ServoScene::Body& body
   pairs_.goOnHolding(work);
   pose_ = sceneFromPart;
   const double reach = std::min(list.cutoff(), reachOfThousands(contactReach));
-  ManyPairs::Asked asked = askedAmongThousands(scene, body, sceneFromPart, reach, contactReach);
-  asked.ahead = ahead;
-  pairs_.begin(asked);
+  pairs_.begin(askedAmongThousands(scene, body, sceneFromPart, reach, contactReach));
   for (bool isDone = false; !isDone;) {
     std::size_t count = 0;
     isDone = pairs_.goOn(work, contacts_, count).has_value();

@@ -59,11 +59,10 @@ class PairPreparer {
   void forget() noexcept { pairs_.forget(); }
   /// @param list           At most ManyPairs::kMax pairs that span contacts, of the moving part and the body.
   /// @param sceneFromPart  Pose at which the pairs will be claimed: their separations are the best there.
-  /// @param ahead          The same a little later.
   /// @param serial         Of the result; not 0.
   void prepare(const ServoScene& scene, const ServoScene::Body& body, const CandidateList& list,
-               const RigidTransform& sceneFromPart, const RigidTransform& ahead, double contactReach,
-               std::uint64_t serial, PreparedPairs& out);
+               const RigidTransform& sceneFromPart, double contactReach, std::uint64_t serial,
+               PreparedPairs& out);
 
  private:
   ManyPairs pairs_;

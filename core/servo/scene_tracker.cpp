@@ -38,9 +38,8 @@ constexpr double kTriangleRoomToKeep = 0.5, kTriangleRoomIfStarved = 0.98;
 constexpr std::uint64_t kLongSearch = 1U << 15;
 /// Such a list begins so many ticks before the former one ends, if it is ready then,
 constexpr double kOverlap = 2.0;
-/// and its pairs are claimed where the part has come so far on the former one's way. Where it goes from there is seen by
-/// its pose so many ticks later.
-constexpr double kShareAtClaim = 0.9, kTicksAheadOfClaim = 4.0;
+/// and its pairs are claimed where the part has come so far on the former one's way.
+constexpr double kShareAtClaim = 0.9;
 /// Max bodies whose pairs are prepared.
 constexpr std::size_t kMaxPrepared = 2;
 
@@ -298,12 +297,10 @@ void SceneTracker::renewContacts(TrackedScene::Near& entry, const TrackedScene::
     return;
   }
   memory.isSearchLong = !entry.contacts || entry.contacts->searchWork() > kLongSearch;
-  const auto poseAt = [&](double later) {
-    return former != nullptr && old.prepared
-               ? forecast_.poseIn(ticksTo(kShareAtClaim, *former, entry.body) + later)
-               : forecast_.poseAfterwards(1.0 + later);
-  };
-  entry.prepared = prepared(entry.body, entry.contacts.get(), poseAt(0.0), poseAt(kTicksAheadOfClaim), reach);
+  const RigidTransform claimed = former != nullptr && old.prepared
+                                     ? forecast_.poseIn(ticksTo(kShareAtClaim, *former, entry.body))
+                                     : forecast_.poseWhenReady();
+  entry.prepared = prepared(entry.body, entry.contacts.get(), claimed, reach);
   entry.formerPrepared = old.prepared;
 }
 
@@ -330,18 +327,16 @@ PairPreparer* SceneTracker::preparerOf(std::uint32_t body) {
 
 std::shared_ptr<PreparedPairs> SceneTracker::prepared(std::uint32_t body, const CandidateList* list,
                                                       const RigidTransform& claimed,
-                                                      const RigidTransform& ahead, const SearchReach& reach) {
+                                                      const SearchReach& reach) {
   if (list == nullptr || !(list->cutoff() < reach.contact) || list->size() < ManyPairs::kFew ||
       list->size() > ManyPairs::kMax)
     return nullptr;
   PairPreparer* const preparer = preparerOf(body);
   if (preparer == nullptr) return nullptr;
   const std::shared_ptr<PreparedPairs> out = spareOf(preparedPairs_);
-  const auto inBody = [&](const RigidTransform& pose) {
-    return pairOf(body).queryAt(pose, reach.contact).sceneFromPart;
-  };
-  preparer->prepare(*current_.scene, current_.scene->bodies[body], *list, inBody(claimed), inBody(ahead),
-                    reach.contact, nextSerial(), *out);
+  preparer->prepare(*current_.scene, current_.scene->bodies[body], *list,
+                    pairOf(body).queryAt(claimed, reach.contact).sceneFromPart, reach.contact, nextSerial(),
+                    *out);
   return out;
 }
 

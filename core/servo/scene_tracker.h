@@ -80,10 +80,8 @@ class SceneTracker {
   PairPreparer* preparerOf(std::uint32_t body);
   /// The pairs of a list, if they are thousands.
   /// @param claimed  Pose of the part at which they will be claimed.
-  /// @param ahead    Pose a little later.
   std::shared_ptr<PreparedPairs> prepared(std::uint32_t body, const CandidateList* list,
-                                          const RigidTransform& claimed, const RigidTransform& ahead,
-                                          const SearchReach& reach);
+                                          const RigidTransform& claimed, const SearchReach& reach);
   /// Renews the list of a body's contacts, and their pairs, where it is due.
   void renewContacts(TrackedScene::Near& entry, const TrackedScene::Near& old, const SearchReach& reach);
   /// Ticks from now until the part has come so far on the way of a list; at least 1, and 1 if it is not on that way.

@@ -131,16 +131,11 @@ Separation separationAlong(const NormalConeTree& scene, const NormalConeTree& pa
 }
 
 PairDirections directionsOf(const NormalConeTree& scene, const NormalConeTree& part, const LeafPair& pair,
-                            const RigidTransform& sceneFromPart,
-                            const std::optional<RigidTransform>& ahead) noexcept {
-  const FeatureCorners a = cornersOf(scene, pair.scene), ofPart = cornersOf(part, pair.part);
-  const auto at = [&](const RigidTransform& pose) {
-    return placed(ofPart, glm::mat3_cast(pose.rotation), pose.translation);
-  };
-  const FeatureCorners b = at(sceneFromPart);
-  const auto apartAlong = [&](const glm::dvec3& n, const FeatureCorners& other) {
-    return extentAlong(n, other).low - extentAlong(n, a).high;
-  };
+                            const RigidTransform& sceneFromPart) noexcept {
+  const FeatureCorners a = cornersOf(scene, pair.scene);
+  const FeatureCorners b =
+      placed(cornersOf(part, pair.part), glm::mat3_cast(sceneFromPart.rotation), sceneFromPart.translation);
+  const auto apartAlong = [&](const glm::dvec3& n) { return extentAlong(n, b).low - extentAlong(n, a).high; };
   PairDirections out;
   const glm::dvec3 between = betweenNearest(a, b);
   const double distance = out.distance = glm::length(between);
@@ -149,15 +144,7 @@ PairDirections directionsOf(const NormalConeTree& scene, const NormalConeTree& p
   out.ofContact = unitOrZero(directionAcross(a, b));
   if (b.count == 3 || (b.count == 2 && glm::dot(out.ofContact, between) < 0.0))
     out.ofContact = -out.ofContact;
-  if (out.ofContact != glm::dvec3(0.0)) {
-    double byNearest = distance, byContact = apartAlong(out.ofContact, b);
-    if (ahead) {
-      const FeatureCorners later = at(*ahead);
-      byNearest = std::min(byNearest, apartAlong(out.apart, later));
-      byContact = std::min(byContact, apartAlong(out.ofContact, later));
-    }
-    if (byContact > byNearest) out.apart = out.ofContact;
-  }
+  if (out.ofContact != glm::dvec3(0.0) && apartAlong(out.ofContact) > distance) out.apart = out.ofContact;
   out.onPart = b.at[0];
   if (b.count == 2) {
     const glm::dvec3 along = b.at[1] - b.at[0];

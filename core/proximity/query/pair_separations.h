@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -38,7 +37,7 @@ Separation separationAlong(const NormalConeTree& scene, const NormalConeTree& pa
 
 /// A direction along which a pair is apart, and where.
 struct PairDirections {
-  /// The direction, unit, along which the features are farthest apart of those tried, or stay so; zero if there is none.
+  /// The direction, unit, along which the features are farthest apart of those tried; zero if there is none.
   glm::dvec3 apart{0.0};
   /// The only direction that a contact of the two could have; zero if it could have many.
   glm::dvec3 ofContact{0.0};
@@ -47,10 +46,8 @@ struct PairDirections {
 };
 /// Finds a pair's directions, from scene to part, and point, in the scene's centred frame. The pair must span a
 /// contact (spansContact()). Real-time safe.
-/// @param ahead  Pose where the part will soon be, if known: where it slides, what separates features now may not then.
 PairDirections directionsOf(const NormalConeTree& scene, const NormalConeTree& part, const LeafPair& pair,
-                            const RigidTransform& sceneFromPart,
-                            const std::optional<RigidTransform>& ahead = {}) noexcept;
+                            const RigidTransform& sceneFromPart) noexcept;
 
 /// Eight separations, one per lane, all of the scene or all of the part.
 struct alignas(64) SeparatedPairs {

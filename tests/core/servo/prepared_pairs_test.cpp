@@ -91,7 +91,7 @@ TEST_F(RodAmongWaves, PreparedPairsFindTheLeastDistanceAndANearerContactForEachT
     const double t = 0.02 * static_cast<double>(serial);
     const CandidateList list = listAround(poseAt(t));
     ASSERT_GT(list.size(), 2 * ManyPairs::kFew);
-    preparer.prepare(scene(), tube(), list, poseAt(t), poseAt(t + 0.002), kContact, serial, prepared);
+    preparer.prepare(scene(), tube(), list, poseAt(t), kContact, serial, prepared);
     EXPECT_EQ(prepared.serial(), serial);
     ManyPairs* const pairs = prepared.claim(this);
     ASSERT_NE(pairs, nullptr);
@@ -132,13 +132,13 @@ TEST_F(RodAmongWaves, PreparedPairsAreForTheFirstThatClaimsThem) {
   PairPreparer preparer;
   PreparedPairs prepared;
   const CandidateList list = listAround({});
-  preparer.prepare(scene(), tube(), list, {}, {}, kContact, 1, prepared);
+  preparer.prepare(scene(), tube(), list, {}, kContact, 1, prepared);
   const int one = 0, other = 0;
   ManyPairs* const pairs = prepared.claim(&one);
   EXPECT_NE(pairs, nullptr);
   EXPECT_EQ(prepared.claim(&other), nullptr);
   EXPECT_EQ(prepared.claim(&one), pairs);
-  preparer.prepare(scene(), tube(), list, {}, {}, kContact, 2, prepared);
+  preparer.prepare(scene(), tube(), list, {}, kContact, 2, prepared);
   EXPECT_NE(prepared.claim(&other), nullptr);
 }
 

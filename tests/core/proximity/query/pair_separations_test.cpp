@@ -108,58 +108,6 @@ TEST(PairSeparations, AreLowerBoundsAtEveryPose) {
   EXPECT_GT(ofPart, 50U);
 }
 
-// Where a part slides, the direction between the nearest points of two features is the best at a pose and none a little
-// later: pairs were tested and separated anew in each step.
-TEST(PairSeparations, LastUntilThePoseAheadIfTheyCan) {
-  const test::BodyPair pair{"stars", test::starMesh(41, 1.0, 3, 0.05), test::starMesh(42, 0.7, 3, 0.05)};
-  const NormalConeTree scene(pair.scene), part(pair.part);
-  std::mt19937_64 random(29);
-  LmdScratch scratch;
-  std::vector<LeafPair> pairs(1U << 16);
-  std::size_t longer = 0, compared = 0;
-  for (int i = 0; i < 40; ++i) {
-    const RigidTransform pose = test::poseNearContact(pair, 0.05, random);
-    const NearbyPairs nearby =
-        findNearbyPairs({scene, part, pose, 0.1}, {0.1, 0.1}, {}, scratch, pairs, 1U << 20);
-    ASSERT_TRUE(nearby.isComplete);
-    // It turns about its own centre: its surface slides.
-    const RigidTransform turned{glm::normalize(rotationOf({0.03, 0.05, 0.02}) * pose.rotation),
-                                pose.translation};
-    const RigidTransform now = centredPose(scene, part, pose), ahead = centredPose(scene, part, turned);
-    for (const LeafPair& of : std::span(pairs).first(nearby.count)) {
-      const auto leastWith = [&](const PairDirections& directions) {
-        const Separation separation = separationAlong(scene, part, of, now, directions.apart);
-        SeparatedPairs block{};
-        block.set(0, separation);
-        const std::uint8_t held = 1, tested = 0;
-        double least = std::numeric_limits<double>::infinity();
-        for (const RigidTransform& at : {now, ahead}) {
-          SeparationsFound found;
-          separationKernel(SimdLevel::Portable)(&block, &held, &tested, 1,
-                                                {.pose = separationPose(at, separation.isOfPart),
-                                                 .near = std::numeric_limits<double>::infinity()},
-                                                found);
-          least = std::min(least, found.apart[0][0]);
-        }
-        return least;
-      };
-      const PairDirections plain = directionsOf(scene, part, of, now);
-      const PairDirections lasting = directionsOf(scene, part, of, now, ahead);
-      EXPECT_EQ(lasting.ofContact, plain.ofContact);
-      EXPECT_EQ(lasting.distance, plain.distance);
-      if (plain.apart == glm::dvec3(0.0) || lasting.apart == glm::dvec3(0.0)) continue;
-      // Directions of the part turn with it, which the choice leaves out.
-      if (isSeparatedByPart(of)) continue;
-      const double before = leastWith(plain), with = leastWith(lasting);
-      EXPECT_GE(with, before - 1e-12);
-      longer += with > before + 1e-6 ? 1 : 0;
-      ++compared;
-    }
-  }
-  EXPECT_GT(compared, 200U);
-  EXPECT_GT(longer, compared / 20);
-}
-
 /// A pair at x = `height` and a point of the other body at the origin: apart by the point's place less the height.
 Separation atHeight(double height) {
   return {.direction = {1.0, 0.0, 0.0}, .height = height, .ends = {glm::dvec3(0.0), glm::dvec3(0.0)}};
