@@ -139,7 +139,7 @@ ContactFinder::ContactFinder()
       surfaceFound_(kMaxContacts),
       pairs_(kMaxPairs),
       edgePairs_(kManyPairs / EdgePairs::kLanes),
-      edgePairKernel_(edgePairKernel(defaultSimdLevel())),
+      edgePairKernels_(edgePairKernels(defaultSimdLevel())),
       triangles_(kMaxTriangles) {}
 
 void ContactFinder::forget() noexcept {
@@ -549,11 +549,11 @@ void ContactFinder::testPairs(const ServoScene& scene, HeldBody& held, std::size
     const std::size_t block = first / EdgePairs::kLanes, end = block + count / EdgePairs::kLanes;
     for (; held.packed < end; ++held.packed) {
       packEdgePairs(tree, part, pairs.subspan(held.packed * EdgePairs::kLanes).first<EdgePairs::kLanes>(),
-                    edgePairs_[held.firstBlock + held.packed]);
+                    edgePairKernels_, edgePairs_[held.firstBlock + held.packed]);
       spend(EdgePairs::kLanes);
     }
     packed = {std::span<const EdgePairs>(edgePairs_).subspan(held.firstBlock + block, end - block),
-              edgePairKernel_};
+              edgePairKernels_};
   }
   const ContactReach within{pairsReach_, contactTurn(pairsReach_, scene.metric.radius)};
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * look_.pose).normalized();

@@ -243,9 +243,9 @@ class ContactFinder {
 
   /// Pairs that can be contacts at poses within `holds_` of a stretch about `pairsPose_`.
   std::vector<LeafPair> pairs_;
-  /// The edge pairs among them, packed for tests of four at a time, as far as there is room.
+  /// The edge pairs among them, packed for tests of eight at a time, as far as there is room.
   std::vector<EdgePairs> edgePairs_;
-  EdgePairKernel edgePairKernel_;
+  EdgePairKernels edgePairKernels_;
   /// For unsided surfaces instead: pairs of triangles that come near within `holds_`.
   std::vector<TrianglePair> triangles_;
   TriangleTests triangleTests_;

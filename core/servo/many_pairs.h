@@ -3,13 +3,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/proximity/query/contact_query.h"
+#include "core/proximity/query/edge_pairs.h"
 #include "core/proximity/query/pair_passage.h"
 #include "core/proximity/query/pair_separations.h"
+#include "core/proximity/query/segment_pairs.h"
 
 namespace nearfit {
 
@@ -28,6 +31,10 @@ class ManyPairs {
   static constexpr std::size_t kFew = 1024;
   /// Max pairs held.
   static constexpr std::size_t kMax = 1U << 15;
+  /// Room for contacts that a look needs to go on.
+  static constexpr std::size_t kLeastRoom = 16;
+  /// Cell size of the directions that pairs are grouped by; their length is 1.
+  static constexpr double kDirectionCell = 0.2;
 
   ManyPairs();
 
@@ -74,14 +81,18 @@ class ManyPairs {
   void begin(const Asked& asked) noexcept;
   /// Goes on with a look until it ends or the work is spent.
   /// @param work  Work allowed, as in ContactFinder; the work done is subtracted, down to 0.
-  /// @param out   Room for contacts, in the frame of the scene's mesh: a look goes on if there is none left.
-  /// @param count Of those filled, before and after.
+  /// @param out   Room for contacts, in the frame of the scene's mesh.
+  /// @param count Of those filled, before and after. The look waits where fewer than kLeastRoom are left.
   /// Returns the result once the look has ended.
   std::optional<Found> goOn(std::uint64_t& work, std::span<ContactPair> out, std::size_t& count) noexcept;
 
  private:
   static constexpr std::size_t kLanes = SeparatedPairs::kLanes;
+  static_assert(kLanes == EdgePairs::kLanes && kLanes == SegmentPairs::kLanes);
   static constexpr std::uint32_t kNone = ~0U;
+  static constexpr double kBeyondAll = std::numeric_limits<double>::infinity();
+  /// Slots for pairs separated by the scene, and as many for those separated by the part.
+  static constexpr std::size_t kSlotsOfKind = kMax;
 
   /// A place for a pair: those separated by the scene come before those separated by the part.
   struct Slot {
@@ -101,6 +112,12 @@ class ManyPairs {
     double least = 0.0;             ///< In this look [m].
   };
   enum class Stage : std::uint8_t { New, Nearest, Rest, Done };
+  /// Slots that wait until there are as many as a kernel takes at a time.
+  struct Waiting {
+    std::array<std::uint32_t, kLanes> at;
+    std::size_t count = 0;
+  };
+  class LookCall;
   enum class HoldingStage : std::uint8_t { Find, Add, Count, Done };
 
   /// Fetches into the cache what finding the pair a little after `at` needs.
@@ -162,7 +179,12 @@ class ManyPairs {
   std::size_t at_ = 0;  ///< Where the stage goes on.
   std::uint32_t look_ = 0;
   Found found_;
-  SeparationKernel kernel_;
+  /// Pairs of edges to test, and pairs of edges and vertices to separate. What waits when the work is spent waits on, so
+  /// that a look finds the same however it is cut up.
+  Waiting toTest_, toSeparate_;
+  SeparationKernel scan_;
+  EdgePairKernels edgeKernels_;
+  SegmentSeparationKernel separateSegments_;
 };
 
 }  // namespace nearfit

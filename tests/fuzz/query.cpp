@@ -182,10 +182,11 @@ ContactResult contactsWith(const Case& c, const ContactReach& reach, const Motio
   const std::size_t filled = std::min(edgePairsToFront(found) / EdgePairs::kLanes, blocks.size());
   for (std::size_t i = 0; i < filled; ++i)
     packEdgePairs(c.query().scene, c.query().part,
-                  found.subspan(i * EdgePairs::kLanes).first<EdgePairs::kLanes>(), blocks[i]);
+                  found.subspan(i * EdgePairs::kLanes).first<EdgePairs::kLanes>(),
+                  edgePairKernels(defaultSimdLevel()), blocks[i]);
   const ContactResult result =
       testContacts(c.query(), reach, found, contacts,
-                   {std::span(blocks).first(filled), edgePairKernel(defaultSimdLevel())});
+                   {std::span(blocks).first(filled), edgePairKernels(defaultSimdLevel())});
   require(result.count <= contacts.size(), "no more contacts than room");
   return result;
 }

@@ -117,7 +117,7 @@ ContactResult testContacts(const BodyPairQuery& query, const ContactReach& reach
   const EdgePairLimits limits = tests.edgePairLimits();
   EdgePairHits hits;
   for (std::size_t i = 0; i < blocks; ++i) {
-    packed.kernel(packed.blocks[i], tests.sceneFromPart(), tests.partFromScene(), limits, hits);
+    packed.kernels.test(packed.blocks[i], tests.sceneFromPart(), tests.partFromScene(), limits, hits);
     for (std::uint32_t lanes = hits.found; lanes != 0; lanes &= lanes - 1)
       collector.add(contactOf(hits, static_cast<std::size_t>(std::countr_zero(lanes)), query.scene));
     for (std::uint32_t lanes = hits.undecided; lanes != 0; lanes &= lanes - 1)

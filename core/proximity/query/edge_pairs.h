@@ -9,16 +9,24 @@
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/query/cull_kernel.h"
 #include "core/proximity/query/leaf_pair.h"
+#include "core/proximity/query/segment_pairs.h"
 
 namespace nearfit {
 
-/// Four pairs of edges, one per lane, with what their tests need at any pose. Each edge is in the centred
+/// Eight pairs of edges, one per lane, by their corners: the ends of each edge, and the third corners of its faces, in the
+/// centred frame of its own tree [m].
+struct alignas(64) EdgePairCorners {
+  SegmentPairs ends;
+  std::array<SegmentPairs::Vectors, 2> sceneOpposite, partOpposite;
+};
+
+/// Eight pairs of edges, one per lane, with what their tests need at any pose. Each edge is in the centred
 /// frame of its own tree.
 struct alignas(64) EdgePairs {
-  static constexpr std::size_t kLanes = 4;
+  static constexpr std::size_t kLanes = SegmentPairs::kLanes;
 
-  using Numbers = std::array<double, kLanes>;
-  using Vectors = std::array<Numbers, 3>;
+  using Numbers = SegmentPairs::Numbers;
+  using Vectors = SegmentPairs::Vectors;
   struct Edges {
     Vectors start, along;  ///< `along` is unit.
     Numbers length;        ///< [m]
@@ -37,7 +45,7 @@ struct EdgePairLimits {
   double pointRounding = 0.0;               ///< [m]
 };
 
-/// Results of testing four pairs; one bit per lane.
+/// Results of testing eight pairs; one bit per lane.
 struct EdgePairHits {
   std::uint32_t found = 0;
   /// Lanes whose edges are nearly parallel or not finite: LeafTests decides.
@@ -46,26 +54,34 @@ struct EdgePairHits {
   EdgePairs::Numbers distance;              ///< [m]
 };
 
-/// Tests four pairs of edges that cross. Results equal those of LeafTests for each pair to the last bit,
+/// What is done with eight pairs of edges at a time. Results equal those of LeafTests for each pair to the last bit,
 /// since the arithmetic and its order are the same. Real-time safe.
-using EdgePairKernel = void (*)(const EdgePairs& pairs, const RigidTransform& sceneFromPart,
-                                const RigidTransform& partFromScene, const EdgePairLimits& limits,
-                                EdgePairHits& out) noexcept;
+struct EdgePairKernels {
+  void (*pack)(const EdgePairCorners& corners, EdgePairs& out) noexcept = nullptr;
+  /// Tests pairs of edges that cross.
+  void (*test)(const EdgePairs& pairs, const RigidTransform& sceneFromPart,
+               const RigidTransform& partFromScene, const EdgePairLimits& limits,
+               EdgePairHits& out) noexcept = nullptr;
+};
 
-/// Returns the kernel for an instruction set that the machine has.
-EdgePairKernel edgePairKernel(SimdLevel level) noexcept;
+/// Returns the kernels for an instruction set that the machine has.
+EdgePairKernels edgePairKernels(SimdLevel level) noexcept;
 
-/// Blocks of pairs to test four at a time, and the kernel that tests them.
+/// Blocks of pairs to test eight at a time, and the kernels that test them.
 struct PackedEdgePairs {
   std::span<const EdgePairs> blocks;
-  EdgePairKernel kernel = nullptr;  ///< Not null if there are blocks.
+  EdgePairKernels kernels{};  ///< Not null if there are blocks.
 };
+
+/// True if both features of a pair are edges.
+bool isOfEdges(const LeafPair& pair) noexcept;
 
 /// Moves pairs of edges to the front. Returns their number. Real-time safe.
 std::size_t edgePairsToFront(std::span<LeafPair> pairs) noexcept;
 
 /// Packs a block of pairs of edges. Real-time safe.
 void packEdgePairs(const NormalConeTree& scene, const NormalConeTree& part,
-                   std::span<const LeafPair, EdgePairs::kLanes> pairs, EdgePairs& block) noexcept;
+                   std::span<const LeafPair, EdgePairs::kLanes> pairs, const EdgePairKernels& kernels,
+                   EdgePairs& block) noexcept;
 
 }  // namespace nearfit

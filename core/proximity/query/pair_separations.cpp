@@ -6,42 +6,37 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/proximity/query/box_cull.h"
+#include "core/proximity/query/double_lanes.h"
 #include "core/proximity/query/feature_corners.h"
 
 namespace nearfit {
 namespace {
 
-using PairDoubles = double __attribute__((vector_size(64)));
-using PairBits = std::int64_t __attribute__((vector_size(64)));
-using PairVectors = simd::Triple<PairDoubles>;
-static_assert(sizeof(PairDoubles) == SeparatedPairs::kLanes * sizeof(double));
+using simd::Doubles8;
+using simd::DoubleVectors8;
+using simd::Mask8;
 
 constexpr double kBeyondAll = std::numeric_limits<double>::infinity();
 
-NEARFIT_INLINE PairVectors spreadVector(const glm::dvec3& v) {
-  return {PairDoubles{} + v.x, PairDoubles{} + v.y, PairDoubles{} + v.z};
-}
-
 /// A block in vectors.
 struct Block {
-  PairVectors direction, first, second;
-  PairDoubles height;
-  PairBits isHeld;
+  DoubleVectors8 direction, first, second;
+  Doubles8 height;
+  Mask8 isHeld;
 };
 /// How far the pairs of a block are apart; infinity for pairs that are not held.
-NEARFIT_INLINE simd::Lanes<PairDoubles> apartIn(const Block& block, const SeparationPose& pose) {
+NEARFIT_INLINE simd::Lanes<Doubles8> apartIn(const Block& block, const SeparationPose& pose) {
   // The direction in the other body's frame, once for both ends.
-  const PairVectors there{simd::dot(spreadVector(pose.turn[0]), block.direction),
-                          simd::dot(spreadVector(pose.turn[1]), block.direction),
-                          simd::dot(spreadVector(pose.turn[2]), block.direction)};
-  const PairDoubles first = simd::dot(there, block.first), second = simd::dot(there, block.second);
-  const PairDoubles apart =
-      simd::least(first, second) + (simd::dot(spreadVector(pose.shift), block.direction) - block.height);
-  return {block.isHeld ? apart : PairDoubles{} + kBeyondAll};
+  const DoubleVectors8 there{simd::dot(simd::spread(pose.turn[0]), block.direction),
+                             simd::dot(simd::spread(pose.turn[1]), block.direction),
+                             simd::dot(simd::spread(pose.turn[2]), block.direction)};
+  const Doubles8 first = simd::dot(there, block.first), second = simd::dot(there, block.second);
+  const Doubles8 apart =
+      simd::least(first, second) + (simd::dot(simd::spread(pose.shift), block.direction) - block.height);
+  return {block.isHeld ? apart : Doubles8{} + kBeyondAll};
 }
 /// The least of all lanes. Goes through memory, like simd::notNegative().
-NEARFIT_INLINE double leastOf(const PairDoubles& lanes) {
+NEARFIT_INLINE double leastOf(const Doubles8& lanes) {
   double numbers[SeparatedPairs::kLanes];
   __builtin_memcpy(numbers, &lanes, sizeof numbers);
   double least = numbers[0];
@@ -50,39 +45,25 @@ NEARFIT_INLINE double leastOf(const PairDoubles& lanes) {
   return least;
 }
 
-constexpr PairBits kLaneBits{1, 2, 4, 8, 16, 32, 64, 128};
-/// The lanes that have their bit.
-NEARFIT_INLINE PairBits lanesOfBits(std::uint8_t bits) {
-  return ((PairBits{} + static_cast<std::int64_t>(bits)) & kLaneBits) != 0;
-}
-/// A bit for each lane in which a comparison holds.
-NEARFIT_INLINE std::uint8_t bitsOf(const PairBits& holds) {
-  using HalfBits = std::int64_t __attribute__((vector_size(32)));
-  const PairBits bits = holds & kLaneBits;
-  const HalfBits halves =
-      __builtin_shufflevector(bits, bits, 0, 1, 2, 3) | __builtin_shufflevector(bits, bits, 4, 5, 6, 7);
-  return static_cast<std::uint8_t>(halves[0] | halves[1] | halves[2] | halves[3]);
-}
-
 NEARFIT_INLINE void scanBlocks(const SeparatedPairs* blocks, const std::uint8_t* held,
                                const std::uint8_t* tested, std::size_t count, const SeparationScan& scan,
                                SeparationsFound& found) {
-  const PairDoubles beyondAll = PairDoubles{} + kBeyondAll;
-  PairDoubles lowest = beyondAll;
+  const Doubles8 beyondAll = Doubles8{} + kBeyondAll;
+  Doubles8 lowest = beyondAll;
   for (std::size_t at = 0; at < count; ++at) {
     found.near[at] = found.nearOnWay[at] = 0;
     if (held[at] == 0) continue;
     const SeparatedPairs& pairs = blocks[at];
-    const Block block{simd::lanesOf<PairDoubles>(pairs.direction), simd::lanesOf<PairDoubles>(pairs.ends[0]),
-                      simd::lanesOf<PairDoubles>(pairs.ends[1]),
-                      simd::lanesOf<PairDoubles>(pairs.height).value, lanesOfBits(held[at])};
-    const PairDoubles apart = apartIn(block, scan.pose).value;
-    const PairBits isNear =
-        apart <= (lanesOfBits(tested[at]) ? PairDoubles{} + scan.nearOfTested : PairDoubles{} + scan.near);
-    const std::uint8_t near = found.near[at] = bitsOf(isNear & block.isHeld);
+    const Block block{simd::lanesOf<Doubles8>(pairs.direction), simd::lanesOf<Doubles8>(pairs.ends[0]),
+                      simd::lanesOf<Doubles8>(pairs.ends[1]), simd::lanesOf<Doubles8>(pairs.height).value,
+                      simd::lanesOfBits(held[at])};
+    const Doubles8 apart = apartIn(block, scan.pose).value;
+    const Mask8 isNear =
+        apart <= (simd::lanesOfBits(tested[at]) ? Doubles8{} + scan.nearOfTested : Doubles8{} + scan.near);
+    const std::uint8_t near = found.near[at] = simd::bitsOf(isNear & block.isHeld);
     if (scan.isOfWay) {
-      const PairDoubles nearest = simd::least(apart, apartIn(block, scan.start).value);
-      found.nearOnWay[at] = bitsOf((nearest <= PairDoubles{} + scan.nearOnWay) & block.isHeld);
+      const Doubles8 nearest = simd::least(apart, apartIn(block, scan.start).value);
+      found.nearOnWay[at] = simd::bitsOf((nearest <= Doubles8{} + scan.nearOnWay) & block.isHeld);
     }
     if ((near | found.nearOnWay[at]) != 0) __builtin_memcpy(&found.apart[at], &apart, sizeof apart);
     lowest = simd::least(lowest, isNear ? beyondAll : apart);

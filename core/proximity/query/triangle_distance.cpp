@@ -80,9 +80,7 @@ ClosestPoints closestOfSegments(const glm::dvec3& a0, const glm::dvec3& a1, cons
   const glm::dvec3 q = b0 + shareOfB(a0 + start * u) * v;
   const glm::dvec3 p = a0 + shareOfA(q) * u;
   ClosestPoints best{p, q, squaredDistance(p, q)};
-  // Nearly parallel segments are nearest at an end, to rounding.
-  constexpr double kParallel = 1e-14;
-  if (nn > kParallel * uu * vv) return best;
+  if (nn > kParallelSegments * uu * vv) return best;
   for (const glm::dvec3& end : {a0, a1}) {
     const glm::dvec3 other = b0 + shareOfB(end) * v;
     take({end, other, squaredDistance(end, other)}, best);

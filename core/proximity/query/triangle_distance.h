@@ -12,6 +12,9 @@ struct ClosestPoints {
   double distanceSquared;  ///< [m^2]
 };
 
+/// Squared sine of the angle between two segments up to which they are nearly parallel: nearest at an end, to rounding.
+constexpr double kParallelSegments = 1e-14;
+
 /// Returns the closest points of two segments, which may be points. Accurate to some roundings of their
 /// coordinates, even if nearly parallel. Real-time safe.
 ClosestPoints closestOfSegments(const glm::dvec3& a0, const glm::dvec3& a1, const glm::dvec3& b0,

@@ -158,7 +158,8 @@ TEST(ManyPairs, ALookInPartsFindsTheSame) {
       asked.bendFromPart = 1e-4;
       asked.enough = kEnough;
     }
-    const Seen once = look(whole, asked, kUnbounded, ManyPairs::kMax), often = look(parts, asked, 50, 8);
+    const Seen once = look(whole, asked, kUnbounded, ManyPairs::kMax),
+               often = look(parts, asked, 50, ManyPairs::kLeastRoom);
     EXPECT_GT(often.calls, 20);
     EXPECT_EQ(once.calls, 1);
     EXPECT_EQ(once.found.least, often.found.least);

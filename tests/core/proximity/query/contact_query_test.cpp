@@ -38,9 +38,9 @@ ContactResult findContacts(const BodyPairQuery& query, LmdScratch& scratch, std:
   const std::size_t filled = std::min(edgePairsToFront(found) / EdgePairs::kLanes, blocks.size());
   for (std::size_t i = 0; i < filled; ++i)
     packEdgePairs(query.scene, query.part, found.subspan(i * EdgePairs::kLanes).first<EdgePairs::kLanes>(),
-                  blocks[i]);
+                  edgePairKernels(defaultSimdLevel()), blocks[i]);
   ContactResult result = testContacts(query, reach, found, out,
-                                      {std::span(blocks).first(filled), edgePairKernel(defaultSimdLevel())});
+                                      {std::span(blocks).first(filled), edgePairKernels(defaultSimdLevel())});
   if (!nearby.isComplete) result.completeTo = 0.0;
   return result;
 }

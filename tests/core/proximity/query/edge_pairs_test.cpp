@@ -30,7 +30,8 @@ std::vector<BodyPair> bodyPairs(double scale) {
   std::vector<BodyPair> pairs{
       {"stars", test::starMesh(31, 1.0, 3, 0.25), test::starMesh(32, 0.7, 3, 0.25)},
       {"tori", test::torusMesh(1.0, 0.3, 24, 12), test::torusMesh(0.8, 0.25, 20, 10)},
-      {"boxes", test::boxMesh({1.0, 1.0, 1.0}), test::subdivided(test::boxMesh({0.6, 0.4, 0.5}), 1)},
+      {"boxes", test::subdivided(test::boxMesh({1.0, 1.0, 1.0}), 2),
+       test::subdivided(test::boxMesh({0.6, 0.4, 0.5}), 2)},
       {"peg in bore", test::tubeMesh(0.5, 0.8, 1.0, 32), test::cylinderMesh(0.45, 2.0, 32)},
   };
   for (BodyPair& pair : pairs) {
@@ -55,10 +56,10 @@ class Candidates {
   }
 
   /// Packs the first pairs.
-  void pack(std::span<EdgePairs> blocks) const {
+  void pack(std::span<EdgePairs> blocks, SimdLevel level) const {
     for (std::size_t i = 0; i < blocks.size(); ++i)
       packEdgePairs(scene, part, std::span(pairs).subspan(i * EdgePairs::kLanes).first<EdgePairs::kLanes>(),
-                    blocks[i]);
+                    edgePairKernels(level), blocks[i]);
   }
 
   std::vector<ContactPair> contacts(const PackedEdgePairs& packed) {
@@ -109,16 +110,16 @@ TEST(EdgePairs, EachInstructionSetSaysWhatSingleTestsSayToTheLastBit) {
         ASSERT_NO_FATAL_FAILURE(candidates.gather(pose, 0.1 * scale));
         const std::vector<ContactPair> expected = candidates.contacts({});
         std::vector<EdgePairs> blocks(edgePairsToFront(candidates.pairs) / EdgePairs::kLanes);
-        candidates.pack(blocks);
         for (const SimdLevel level : availableSimdLevels()) {
-          const std::vector<ContactPair> found = candidates.contacts({blocks, edgePairKernel(level)});
+          candidates.pack(blocks, level);
+          const std::vector<ContactPair> found = candidates.contacts({blocks, edgePairKernels(level)});
           ASSERT_EQ(found.size(), expected.size());
           for (std::size_t i = 0; i < found.size(); ++i)
             EXPECT_TRUE(isSame(found[i], expected[i])) << i << " of level " << static_cast<int>(level);
         }
         for (const EdgePairs& block : blocks) {
           EdgePairHits hits;
-          edgePairKernel(SimdLevel::Portable)(block, pose, pose.inverse(), {}, hits);
+          edgePairKernels(SimdLevel::Portable).test(block, pose, pose.inverse(), {}, hits);
           undecided += hits.undecided != 0 ? 1 : 0;
           EXPECT_EQ(hits.found & hits.undecided, 0U);
         }
@@ -156,7 +157,7 @@ TEST(EdgePairs, EdgesComeFirstAndNothingIsLost) {
   EXPECT_TRUE(std::all_of(candidates.pairs.begin(),
                           candidates.pairs.begin() + static_cast<std::ptrdiff_t>(edges), isOfEdges));
   std::vector<EdgePairs> blocks(edges / EdgePairs::kLanes);
-  candidates.pack(blocks);
+  candidates.pack(blocks, SimdLevel::Portable);
   for (std::size_t i = 0; i < blocks.size() * EdgePairs::kLanes; ++i) {
     const std::uint32_t edge = NormalConeTree::leafIndex(candidates.pairs[i].part);
     const LeafTests::Edge expected = LeafTests::edgeOf(candidates.part, edge);
