@@ -32,7 +32,8 @@ void makeRoom(std::vector<T>& of, std::size_t count) {
   of.clear();
 }
 
-std::size_t kindOf(const LeafPair& pair) noexcept {
+/// Which half of the slots a pair goes to.
+std::size_t halfOf(const LeafPair& pair) noexcept {
   return isSeparatedByPart(pair) ? 1 : 0;
 }
 
@@ -49,7 +50,8 @@ ManyPairs::ManyPairs()
       groupTable_(kGroupTableSize, kNone),
       scan_(separationKernel(defaultSimdLevel())),
       edgeKernels_(edgePairKernels(defaultSimdLevel())),
-      separateSegments_(segmentSeparationKernel(defaultSimdLevel())) {
+      separateSegments_(segmentSeparationKernel(defaultSimdLevel())),
+      faceKernels_(facePairKernels(defaultSimdLevel())) {
   for (std::vector<std::uint32_t>& slots : free_)
     makeRoom(slots, kSlotsOfKind);
   makeRoom(order_, kMax);
@@ -138,7 +140,7 @@ void ManyPairs::insert(std::uint32_t slot) noexcept {
 }
 
 std::uint32_t ManyPairs::add(const LeafPair& pair) noexcept {
-  const std::size_t kind = kindOf(pair);
+  const std::size_t kind = halfOf(pair);
   std::uint32_t slot;
   if (!free_[kind].empty()) {
     slot = free_[kind].back();

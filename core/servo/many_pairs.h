@@ -10,6 +10,7 @@
 
 #include "core/proximity/query/contact_query.h"
 #include "core/proximity/query/edge_pairs.h"
+#include "core/proximity/query/face_pairs.h"
 #include "core/proximity/query/pair_passage.h"
 #include "core/proximity/query/pair_separations.h"
 #include "core/proximity/query/segment_pairs.h"
@@ -32,7 +33,7 @@ class ManyPairs {
   /// Max pairs held.
   static constexpr std::size_t kMax = 1U << 15;
   /// Room for contacts that a look needs to go on.
-  static constexpr std::size_t kLeastRoom = 16;
+  static constexpr std::size_t kLeastRoom = 24;
   /// Cell size of the directions that pairs are grouped by; their length is 1.
   static constexpr double kDirectionCell = 0.2;
 
@@ -88,7 +89,7 @@ class ManyPairs {
 
  private:
   static constexpr std::size_t kLanes = SeparatedPairs::kLanes;
-  static_assert(kLanes == EdgePairs::kLanes && kLanes == SegmentPairs::kLanes);
+  static_assert(kLanes == EdgePairs::kLanes && kLanes == FacePairs::kLanes);
   static constexpr std::uint32_t kNone = ~0U;
   static constexpr double kBeyondAll = std::numeric_limits<double>::infinity();
   /// Slots for pairs separated by the scene, and as many for those separated by the part.
@@ -112,6 +113,9 @@ class ManyPairs {
     double least = 0.0;             ///< In this look [m].
   };
   enum class Stage : std::uint8_t { New, Nearest, Rest, Done };
+  /// Kinds of pairs that kernels take: without a face, with one of the scene, and with one of the part.
+  enum Kind : std::size_t { OfSegments, OfSceneFace, OfPartFace, kKinds };
+  static Kind kindOf(const LeafPair& pair) noexcept;
   /// Slots that wait until there are as many as a kernel takes at a time.
   struct Waiting {
     std::array<std::uint32_t, kLanes> at;
@@ -179,12 +183,14 @@ class ManyPairs {
   std::size_t at_ = 0;  ///< Where the stage goes on.
   std::uint32_t look_ = 0;
   Found found_;
-  /// Pairs of edges to test, and pairs of edges and vertices to separate. What waits when the work is spent waits on, so
-  /// that a look finds the same however it is cut up.
-  Waiting toTest_, toSeparate_;
+  /// Pairs to test, of edges, of the scene's faces and of the part's; and pairs to separate, of edges and vertices, of the
+  /// scene's faces and of the part's. What waits when the work is spent waits on, so that a look finds the same however it
+  /// is cut up.
+  std::array<Waiting, kKinds> toTest_, toSeparate_;
   SeparationKernel scan_;
   EdgePairKernels edgeKernels_;
   SegmentSeparationKernel separateSegments_;
+  FacePairKernels faceKernels_;
 };
 
 }  // namespace nearfit

@@ -23,10 +23,10 @@ constexpr double kLeastGain = 0.005;
 /// Looks after which a pair without a contact is separated anew where its features are so close that each look tests it,
 /// whatever its separation.
 constexpr std::uint32_t kLooksOfClose = 16;
-/// Work of a test and of finding a separation after it, one at a time or among those of a kernel, and of a passage; and
-/// pairs bounded in a unit of work.
-constexpr std::uint64_t kWorkOfExactTest = 2, kWorkOfEdgeTest = 1, kWorkOfSeparation = 2,
-                        kWorkOfSegmentSeparation = 1, kWorkOfOnePassage = 1;
+/// Work of a test by itself, of one among those of a kernel, of finding a separation, and of a passage; and pairs bounded
+/// in a unit of work.
+constexpr std::uint64_t kWorkOfExactTest = 2, kWorkOfTestAmongEight = 1, kWorkOfSeparation = 1,
+                        kWorkOfOnePassage = 1;
 constexpr std::size_t kBoundedOfWork = 32, kBoundedOnWayOfWork = 16;
 
 glm::dvec3 vectorIn(const EdgePairs::Vectors& vectors, std::size_t lane) noexcept {
@@ -54,22 +54,38 @@ class ManyPairs::LookCall {
   bool testRest() noexcept;
 
  private:
+  /// Slots and pairs that go to a kernel; in the lanes after `count` the last is repeated.
+  struct Taken {
+    std::array<std::uint32_t, kLanes> at;
+    std::array<LeafPair, kLanes> pairs;
+    std::size_t count;
+  };
   void spend(std::uint64_t work) noexcept { work_ -= std::min(work_, work); }
   /// True if a pair can be tested, or eight at a time with as many singly.
   bool canTest() const noexcept { return work_ > 0 && count_ + kLeastRoom <= out_.size(); }
   std::uint64_t keyOf(const glm::dvec3& direction, const glm::dvec3& point) const noexcept;
   void test(std::uint32_t at) noexcept;
   void testOne(std::uint32_t at) noexcept;
-  void testWaiting() noexcept;
+  void testWaiting(Kind kind) noexcept;
+  void testEdges(const Taken& taken) noexcept;
+  void testFaces(const Taken& taken, bool areOfPart) noexcept;
+  /// Takes the contact that a test has put into minimum_, if it has found one.
+  void takeIf(bool isFound, std::uint32_t at) noexcept;
   void take(std::uint32_t at, const ContactPair& contact) noexcept;
   void separate(std::uint32_t at) noexcept;
-  void separateOne(std::uint32_t at) noexcept;
-  void separateWaiting() noexcept;
+  void separateWaiting(Kind kind) noexcept;
+  void separateSegments(const Taken& taken) noexcept;
+  void separateFaces(const Taken& taken, bool areOfPart) noexcept;
+  /// Tests and separates what waits.
+  void endStage() noexcept;
   void know(std::uint32_t at, const Separation& separation, std::uint64_t key) noexcept;
   void knowSeparated(std::uint32_t at, const Separation& separation,
                      const PairDirections& directions) noexcept;
-  /// The pairs that wait, the last of them repeated in the lanes left, and their number; none waits then.
-  std::size_t takeWaiting(Waiting& waiting, std::array<LeafPair, kLanes>& pairs) const noexcept;
+  /// Takes the pairs that wait, at least one.
+  Taken takeWaiting(Waiting& waiting) const noexcept;
+  const RigidTransform& faceFromVertex(bool facesArePart) const noexcept {
+    return facesArePart ? tests_.partFromScene() : tests_.sceneFromPart();
+  }
   void lookAt(std::uint32_t at, double bound, double gain) noexcept;
 
   ManyPairs& many_;
@@ -108,11 +124,15 @@ void ManyPairs::LookCall::know(std::uint32_t at, const Separation& separation, s
   slot.isKnown = true;
 }
 
-std::size_t ManyPairs::LookCall::takeWaiting(Waiting& waiting,
-                                             std::array<LeafPair, kLanes>& pairs) const noexcept {
+ManyPairs::LookCall::Taken ManyPairs::LookCall::takeWaiting(Waiting& waiting) const noexcept {
+  Taken taken{.at = waiting.at, .pairs = {}, .count = std::exchange(waiting.count, 0)};
   for (std::size_t lane = 0; lane < kLanes; ++lane)
-    pairs[lane] = many_.slots_[waiting.at[std::min(lane, waiting.count - 1)]].pair;
-  return std::exchange(waiting.count, 0);
+    taken.pairs[lane] = many_.slots_[taken.at[std::min(lane, taken.count - 1)]].pair;
+  return taken;
+}
+
+ManyPairs::Kind ManyPairs::kindOf(const LeafPair& pair) noexcept {
+  return isOfSegments(pair) ? OfSegments : isSeparatedByPart(pair) ? OfPartFace : OfSceneFace;
 }
 
 void ManyPairs::LookCall::separate(std::uint32_t at) noexcept {
@@ -121,21 +141,11 @@ void ManyPairs::LookCall::separate(std::uint32_t at) noexcept {
   // A pair that is new in this look has just been separated at this very pose.
   if (slot.isKnown && many_.look_ - slot.separated < (slot.isClose ? kLooksOfClose : 1)) return;
   slot.separated = many_.look_;
-  if (!isOfSegments(slot.pair)) {
-    spend(kWorkOfSeparation);
-    separateOne(at);
-    return;
-  }
-  spend(kWorkOfSegmentSeparation);
-  Waiting& waiting = many_.toSeparate_;
+  spend(kWorkOfSeparation);
+  const Kind kind = kindOf(slot.pair);
+  Waiting& waiting = many_.toSeparate_[kind];
   waiting.at[waiting.count++] = at;
-  if (waiting.count == kLanes) separateWaiting();
-}
-
-void ManyPairs::LookCall::separateOne(std::uint32_t at) noexcept {
-  const LeafPair& pair = many_.slots_[at].pair;
-  const PairDirections directions = directionsOf(scene_, part_, pair, pose_);
-  knowSeparated(at, separationAlong(scene_, part_, pair, pose_, directions.apart), directions);
+  if (waiting.count == kLanes) separateWaiting(kind);
 }
 
 void ManyPairs::LookCall::knowSeparated(std::uint32_t at, const Separation& separation,
@@ -144,22 +154,30 @@ void ManyPairs::LookCall::knowSeparated(std::uint32_t at, const Separation& sepa
   many_.slots_[at].isClose = directions.distance <= many_.asked_.sure;
 }
 
-void ManyPairs::LookCall::separateWaiting() noexcept {
-  if (many_.toSeparate_.count == 0) return;
-  const std::array<std::uint32_t, kLanes> slots = many_.toSeparate_.at;
-  std::array<LeafPair, kLanes> pairs;
-  const std::size_t count = takeWaiting(many_.toSeparate_, pairs);
+void ManyPairs::LookCall::separateWaiting(Kind kind) noexcept {
+  if (many_.toSeparate_[kind].count == 0) return;
+  const Taken taken = takeWaiting(many_.toSeparate_[kind]);
+  if (kind == OfSegments)
+    separateSegments(taken);
+  else
+    separateFaces(taken, kind == OfPartFace);
+}
+
+void ManyPairs::LookCall::separateSegments(const Taken& taken) noexcept {
   SegmentPairs packed;
-  packSegmentPairs(scene_, part_, pairs, packed);
+  packSegmentPairs(scene_, part_, taken.pairs, packed);
   SegmentSeparations found;
   many_.separateSegments_(packed, separationPose(pose_, false), found);
-  for (std::size_t lane = 0; lane < count; ++lane) {
+  for (std::size_t lane = 0; lane < taken.count; ++lane) {
     if ((found.undecided >> lane & 1U) != 0) {
-      separateOne(slots[lane]);
+      const LeafPair& pair = taken.pairs[lane];
+      const PairDirections directions = directionsOf(scene_, part_, pair, pose_);
+      knowSeparated(taken.at[lane], separationAlong(scene_, part_, pair, pose_, directions.apart),
+                    directions);
       continue;
     }
     const PairDirections directions = found.directions(lane);
-    knowSeparated(slots[lane],
+    knowSeparated(taken.at[lane],
                   {.direction = directions.apart,
                    .height = found.height[lane],
                    .ends = {vectorIn(packed.part[0], lane), vectorIn(packed.part[1], lane)}},
@@ -167,24 +185,48 @@ void ManyPairs::LookCall::separateWaiting() noexcept {
   }
 }
 
+void ManyPairs::LookCall::separateFaces(const Taken& taken, bool areOfPart) noexcept {
+  FacePairs packed;
+  packFacePairs(scene_, part_, taken.pairs, areOfPart, packed);
+  FaceSeparations found;
+  many_.faceKernels_.separate(packed, faceFromVertex(areOfPart), found);
+  for (std::size_t lane = 0; lane < taken.count; ++lane) {
+    const glm::dvec3 vertex = vectorIn(packed.vertex, lane), apart = vectorIn(found.apart, lane),
+                     normal = vectorIn(found.normal, lane);
+    knowSeparated(
+        taken.at[lane],
+        {.isOfPart = areOfPart, .direction = apart, .height = found.height[lane], .ends = {vertex, vertex}},
+        {.apart = apart,
+         .ofContact = areOfPart ? pose_.applyToVector(-normal) : normal,
+         .onPart = areOfPart ? vertex : vectorIn(found.vertex, lane),
+         .distance = found.distance[lane]});
+  }
+}
+
 void ManyPairs::LookCall::test(std::uint32_t at) noexcept {
+  const LeafPair& pair = many_.slots_[at].pair;
   many_.slots_[at].look = many_.look_;
   many_.setTested(at, true);
-  // Kernels test relaxed directions only.
-  if (!isOfEdges(many_.slots_[at].pair) || !(many_.asked_.reach.turn > 0.0)) {
+  // Kernels test relaxed directions only, of edges and of faces.
+  const Kind kind = kindOf(pair);
+  if (!(many_.asked_.reach.turn > 0.0) || (kind == OfSegments && !isOfEdges(pair))) {
     spend(kWorkOfExactTest);
     testOne(at);
     return;
   }
-  spend(kWorkOfEdgeTest);
-  Waiting& waiting = many_.toTest_;
+  spend(kWorkOfTestAmongEight);
+  Waiting& waiting = many_.toTest_[kind];
   waiting.at[waiting.count++] = at;
-  if (waiting.count == kLanes) testWaiting();
+  if (waiting.count == kLanes) testWaiting(kind);
 }
 
 void ManyPairs::LookCall::testOne(std::uint32_t at) noexcept {
   const LeafPair& pair = many_.slots_[at].pair;
-  if (!tests_.test(pair.scene, pair.part, minimum_)) {
+  takeIf(tests_.test(pair.scene, pair.part, minimum_), at);
+}
+
+void ManyPairs::LookCall::takeIf(bool isFound, std::uint32_t at) noexcept {
+  if (!isFound) {
     separate(at);
     return;
   }
@@ -192,25 +234,53 @@ void ManyPairs::LookCall::testOne(std::uint32_t at) noexcept {
   take(at, {lmd.partPoint, lmd.direction, std::min(minimum_.least, lmd.distance)});
 }
 
-void ManyPairs::LookCall::testWaiting() noexcept {
-  if (many_.toTest_.count == 0) return;
-  const std::array<std::uint32_t, kLanes> slots = many_.toTest_.at;
-  std::array<LeafPair, kLanes> pairs;
-  const std::size_t count = takeWaiting(many_.toTest_, pairs);
+void ManyPairs::LookCall::testWaiting(Kind kind) noexcept {
+  if (many_.toTest_[kind].count == 0) return;
+  const Taken taken = takeWaiting(many_.toTest_[kind]);
+  if (kind == OfSegments)
+    testEdges(taken);
+  else
+    testFaces(taken, kind == OfPartFace);
+}
+
+void ManyPairs::LookCall::testEdges(const Taken& taken) noexcept {
   EdgePairs packed;
-  packEdgePairs(scene_, part_, pairs, many_.edgeKernels_, packed);
+  packEdgePairs(scene_, part_, taken.pairs, many_.edgeKernels_, packed);
   EdgePairHits hits;
   many_.edgeKernels_.test(packed, tests_.sceneFromPart(), tests_.partFromScene(), tests_.edgePairLimits(),
                           hits);
-  for (std::size_t lane = 0; lane < count; ++lane) {
+  for (std::size_t lane = 0; lane < taken.count; ++lane) {
     if ((hits.undecided >> lane & 1U) != 0)
-      testOne(slots[lane]);
+      testOne(taken.at[lane]);
     else if ((hits.found >> lane & 1U) != 0)
-      take(slots[lane],
+      take(taken.at[lane],
            {vectorIn(hits.partPoint, lane), vectorIn(hits.direction, lane), hits.distance[lane]});
     else
-      separate(slots[lane]);
+      separate(taken.at[lane]);
   }
+}
+
+void ManyPairs::LookCall::testFaces(const Taken& taken, bool areOfPart) noexcept {
+  FacePairs packed;
+  packFacePairs(scene_, part_, taken.pairs, areOfPart, packed);
+  FacePairHits hits;
+  many_.faceKernels_.test(packed, faceFromVertex(areOfPart), tests_.edgePairLimits(), hits);
+  for (std::size_t lane = 0; lane < taken.count; ++lane) {
+    const LeafPair& pair = taken.pairs[lane];
+    const bool isFound = (hits.over >> lane & 1U) != 0 &&
+                         tests_.testOverFace(pair.scene, pair.part,
+                                             {vectorIn(hits.vertex, lane), vectorIn(hits.normal, lane),
+                                              hits.distance[lane], hits.tilt[lane]},
+                                             minimum_);
+    takeIf(isFound, taken.at[lane]);
+  }
+}
+
+void ManyPairs::LookCall::endStage() noexcept {
+  for (const Kind kind : {OfSegments, OfSceneFace, OfPartFace})
+    testWaiting(kind);
+  for (const Kind kind : {OfSegments, OfSceneFace, OfPartFace})
+    separateWaiting(kind);
 }
 
 /// @param contact  In the scene's centred frame.
@@ -236,7 +306,7 @@ bool ManyPairs::LookCall::separateNew() noexcept {
     many_.setTested(at, false);
     separate(at);
   }
-  separateWaiting();
+  endStage();
   many_.new_.clear();
   return true;
 }
@@ -250,8 +320,7 @@ bool ManyPairs::LookCall::testNearest() noexcept {
     if (slot.look != many_.look_ && slot.distance <= many_.asked_.need) test(nearest);
   }
   if (!canTest()) return false;
-  testWaiting();
-  separateWaiting();
+  endStage();
   return true;
 }
 
@@ -315,8 +384,7 @@ bool ManyPairs::LookCall::testRest() noexcept {
     }
   }
   if (!canTest()) return false;
-  testWaiting();
-  separateWaiting();
+  endStage();
   return true;
 }
 
@@ -324,7 +392,9 @@ void ManyPairs::begin(const Asked& asked) noexcept {
   asked_ = asked;
   found_ = {kBeyondAll, asked.enough};
   stage_ = Stage::New;
-  at_ = toTest_.count = toSeparate_.count = 0;
+  at_ = 0;
+  for (std::size_t kind = 0; kind < kKinds; ++kind)
+    toTest_[kind].count = toSeparate_[kind].count = 0;
   // When the number comes round, no slot may count as tested.
   if (++look_ == 0) {
     for (Slot& slot : slots_)

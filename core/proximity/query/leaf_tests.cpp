@@ -170,16 +170,30 @@ bool LeafTests::vertexFace(const Side& v, std::uint32_t vertex, const Side& f, s
     if (glm::dot(inward, q - a) < -slack * glm::length(inward)) return false;
   }
   if (relaxation_ > 0.0 && !isNearTriangle({x[t[0]], x[t[1]], x[t[2]]}, n, q, slack)) return false;
-  const glm::dvec3 down = v.thisFromOther.applyToVector(-n);
-  if (!isPolarOfVertex(v.tree, vertex, down, angularSlackBase_ + tilt)) return false;
-  accept(f, q - distance * n, q, n, distance, out);
+  if (!vertexOver(v, vertex, f, {q, n, distance, tilt}, out)) return false;
   const double points = 2.0 * margins_.pointError(), turn = LeafMargins::angularErrorOfFace(f.tree, height);
   const auto error = [&] { return points + turn * glm::distance(q, x[t[0]]); };
   const auto isClear = [&] {
     return LeafMargins::isClearInFace({x[t[0]], x[t[1]], x[t[2]]}, n, q, points + turn * distance) &&
-           LeafMargins::isClearOfVertex(v.tree, vertex, down, turn);
+           LeafMargins::isClearOfVertex(v.tree, vertex, v.thisFromOther.applyToVector(-n), turn);
   };
   return settle(error, isClear, out);
+}
+
+bool LeafTests::vertexOver(const Side& v, std::uint32_t vertex, const Side& f, const OverFace& over,
+                           Minimum& out) const noexcept {
+  const glm::dvec3 down = v.thisFromOther.applyToVector(-over.normal);
+  if (!isPolarOfVertex(v.tree, vertex, down, angularSlackBase_ + over.tilt)) return false;
+  accept(f, over.vertex - over.distance * over.normal, over.vertex, over.normal, over.distance, out);
+  return true;
+}
+
+bool LeafTests::testOverFace(std::uint32_t sceneLeaf, std::uint32_t partLeaf, const OverFace& over,
+                             Minimum& out) const noexcept {
+  const bool isSceneFace = NormalConeTree::leafKind(sceneLeaf) == FeatureKind::Face;
+  const std::uint32_t vertex = NormalConeTree::leafIndex(isSceneFace ? partLeaf : sceneLeaf);
+  return isSceneFace ? vertexOver(part_, vertex, scene_, over, out)
+                     : vertexOver(scene_, vertex, part_, over, out);
 }
 
 bool LeafTests::vertexEdge(const Side& v, std::uint32_t vertex, const Side& e, std::uint32_t edge,

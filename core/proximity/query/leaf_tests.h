@@ -47,6 +47,16 @@ class LeafTests {
   const RigidTransform& sceneFromPart() const noexcept { return sceneFromPart_; }
   const RigidTransform& partFromScene() const noexcept { return partFromScene_; }
 
+  /// A vertex over a face, in the face's frame.
+  struct OverFace {
+    glm::dvec3 vertex, normal;  ///< `normal` is the face's, unit.
+    double distance;            ///< [m]
+    double tilt;                ///< Error of the normal [rad].
+  };
+  /// Completes test() with relaxation where the part of it that concerns the face holds (FacePairHits).
+  bool testOverFace(std::uint32_t sceneLeaf, std::uint32_t partLeaf, const OverFace& over,
+                    Minimum& out) const noexcept;
+
   /// True if the pair of leaf children carries a minimum or a piece of a flat region; then fills `out`.
   bool test(std::uint32_t sceneLeaf, std::uint32_t partLeaf, Minimum& out) const noexcept;
 
@@ -105,6 +115,9 @@ class LeafTests {
               double distance, Minimum& out) const noexcept;
 
   bool vertexFace(const Side& v, std::uint32_t vertex, const Side& f, std::uint32_t face,
+                  Minimum& out) const noexcept;
+  /// Completes vertexFace(), but for its margins.
+  bool vertexOver(const Side& v, std::uint32_t vertex, const Side& f, const OverFace& over,
                   Minimum& out) const noexcept;
   bool vertexEdge(const Side& v, std::uint32_t vertex, const Side& e, std::uint32_t edge,
                   Minimum& out) const noexcept;
