@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/proximity/query/double_lanes.h"
+
 namespace nearfit {
 namespace {
 
@@ -16,11 +18,12 @@ bool isUsableNumber(double value) noexcept {
 
 }  // namespace
 
-StepRows::StepRows(std::size_t capacity) : blocks_((capacity + kLanes - 1) / kLanes), capacity_(capacity) {}
+StepRows::StepRows(std::size_t capacity, SimdLevel level)
+    : blocks_((capacity + kLanes - 1) / kLanes), capacity_(capacity), leastKernel_(leastKernel(level)) {}
 
 void StepRows::clear() noexcept {
   size_ = 0;
-  largestNorm_ = 1.0;
+  largestSquare_ = 1.0;
 }
 
 bool StepRows::add(const StepVector& a, double d) noexcept {
@@ -35,7 +38,7 @@ bool StepRows::add(const StepVector& a, double d) noexcept {
     squared += a[k] * a[k];
   }
   block.d[lane] = d;
-  largestNorm_ = std::max(largestNorm_, std::sqrt(squared));
+  largestSquare_ = std::max(largestSquare_, squared);
   ++size_;
   return true;
 }
@@ -51,41 +54,61 @@ double StepRows::distance(std::size_t i) const noexcept {
   return blocks_[i / kLanes].d[i % kLanes];
 }
 
-inline void StepRows::clearances(const Block& block, const StepVector& y,
-                                 std::array<double, kLanes>& out) noexcept {
-  for (std::size_t i = 0; i < kLanes; ++i)
-    out[i] = block.a[0][i] * y[0] + block.a[1][i] * y[1] + block.a[2][i] * y[2] + block.a[3][i] * y[3] +
-             block.a[4][i] * y[4] + block.a[5][i] * y[5] + block.d[i];
-}
+/// The kernel for each instruction set.
+struct StepRows::Kernels {
+  NEARFIT_INLINE static Least least(const Block* blocks, std::size_t count, const StepVector& y) {
+    using simd::Doubles8;
+    using simd::Mask8;
+    // The least of each lane, and its block.
+    Doubles8 lowest = Doubles8{} + kNoRow;
+    Mask8 at{};
+    for (std::size_t b = 0; b < count; ++b) {
+      const Block& block = blocks[b];
+      Doubles8 clearance = simd::lanesOf<Doubles8>(block.a[0]).value * y[0];
+      for (std::size_t k = 1; k < block.a.size(); ++k)
+        clearance += simd::lanesOf<Doubles8>(block.a[k]).value * y[k];
+      clearance += simd::lanesOf<Doubles8>(block.d).value;
+      const Mask8 isLess = clearance < lowest;
+      lowest = isLess ? clearance : lowest;
+      at = isLess ? Mask8{} + static_cast<std::int64_t>(b) : at;
+    }
+    double values[kLanes];
+    std::int64_t found[kLanes];
+    __builtin_memcpy(values, &lowest, sizeof values);
+    __builtin_memcpy(found, &at, sizeof found);
+    Least out{kNoRow, 0};
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::size_t row = static_cast<std::size_t>(found[lane]) * kLanes + lane;
+      if (values[lane] < out.clearance || (values[lane] == out.clearance && row < out.row))
+        out = {values[lane], row};
+    }
+    return out;
+  }
 
-inline double StepRows::least(std::array<double, kLanes> values) noexcept {
-// Unrolled so that the halves stay in registers.
-#pragma GCC unroll 4
-  for (std::size_t half = kLanes / 2; half > 0; half /= 2)
-#pragma GCC unroll 8
-    for (std::size_t i = 0; i < half; ++i)
-      values[i] = values[i + half] < values[i] ? values[i + half] : values[i];
-  return values[0];
+  static Least portable(const Block* blocks, std::size_t count, const StepVector& y) noexcept {
+    return least(blocks, count, y);
+  }
+#if defined(__x86_64__)
+  NEARFIT_AVX2 static Least avx2(const Block* blocks, std::size_t count, const StepVector& y) noexcept {
+    return least(blocks, count, y);
+  }
+  NEARFIT_AVX512 static Least avx512(const Block* blocks, std::size_t count, const StepVector& y) noexcept {
+    return least(blocks, count, y);
+  }
+#endif
+};
+
+StepRows::LeastKernel StepRows::leastKernel(SimdLevel level) noexcept {
+#if defined(__x86_64__)
+  if (level == SimdLevel::Avx512) return Kernels::avx512;
+  if (level == SimdLevel::Avx2) return Kernels::avx2;
+#endif
+  static_cast<void>(level);
+  return Kernels::portable;
 }
 
 StepRows::Least StepRows::leastClearance(const StepVector& y) const noexcept {
-  Least result{kNoRow, 0};
-  std::array<double, kLanes> values;
-  std::size_t best = 0;
-  const std::size_t blocks = (size_ + kLanes - 1) / kLanes;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    clearances(blocks_[b], y, values);
-    const double here = least(values);
-    if (here < result.clearance) {
-      result.clearance = here;
-      best = b;
-    }
-  }
-  if (blocks == 0) return result;
-  clearances(blocks_[best], y, values);
-  const auto found = std::find(values.begin(), values.end(), result.clearance);
-  result.row = best * kLanes + static_cast<std::size_t>(found - values.begin());
-  return result;
+  return leastKernel_(blocks_.data(), (size_ + kLanes - 1) / kLanes, y);
 }
 
 }  // namespace nearfit

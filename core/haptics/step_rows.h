@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "core/haptics/mass_metric.h"
+#include "core/proximity/query/cull_kernel.h"
 
 namespace nearfit {
 
@@ -37,7 +39,8 @@ class StepRows {
   static constexpr double kLargest = 1e12;
 
   /// @param capacity  Max number of rows. Allocates; nothing after it does.
-  explicit StepRows(std::size_t capacity = kDefaultCapacity);
+  /// @param level     An instruction set that the machine has.
+  explicit StepRows(std::size_t capacity = kDefaultCapacity, SimdLevel level = defaultSimdLevel());
 
   void clear() noexcept;
 
@@ -58,7 +61,7 @@ class StepRows {
   double distance(std::size_t i) const noexcept;
 
   /// Max |a_i|, at least 1.
-  double largestNorm() const noexcept { return largestNorm_; }
+  double largestNorm() const noexcept { return std::sqrt(largestSquare_); }
 
   /// The row with the min clearance.
   struct Least {
@@ -70,17 +73,19 @@ class StepRows {
   Least leastClearance(const StepVector& y) const noexcept;
 
  private:
-  static constexpr std::size_t kLanes = 16;
+  static constexpr std::size_t kLanes = 8;
   struct alignas(64) Block {
     std::array<std::array<double, kLanes>, 6> a{};
     std::array<double, kLanes> d{};
   };
-  static void clearances(const Block& block, const StepVector& y, std::array<double, kLanes>& out) noexcept;
-  static double least(std::array<double, kLanes> values) noexcept;
+  using LeastKernel = Least (*)(const Block* blocks, std::size_t count, const StepVector& y) noexcept;
+  struct Kernels;
+  static LeastKernel leastKernel(SimdLevel level) noexcept;
 
   std::vector<Block> blocks_;
   std::size_t capacity_, size_ = 0;
-  double largestNorm_ = 1.0;
+  double largestSquare_ = 1.0;
+  LeastKernel leastKernel_;
 };
 
 }  // namespace nearfit

@@ -263,7 +263,8 @@ LimitedCoupling ServoTick::feelProxy(const Tick& tick) noexcept {
     } else if (isPose(target.pose)) {
       const double scale = isTorqueFelt_ ? turnScale(coupling_, scene.metric) : kTurnScaleWithoutTorque;
       proxy_.begin(tick.tracked, target.pose, tick.settings.proxy, scale);
-      proxy_.advance(tick.tracked, kWorkOfFeel, ContactFinder::Excess::None);
+      // Among thousands of pairs no look ends within it.
+      proxy_.advance(tick.tracked, proxy_.isAmongThousands() ? 0 : kWorkOfFeel, ContactFinder::Excess::None);
       proxy_.feel(tick.tracked);
     } else {
       fault_ = ServoFault::WrenchNotFinite;

@@ -59,7 +59,7 @@ class ServoTick {
   void reset() noexcept;
 
   /// Work of the proxy that the wrench waits for: some 10 us. A part near some hundred pairs of features ends
-  /// its way within it.
+  /// its way within it. Among thousands of pairs the wrench waits for nothing.
   static constexpr std::uint64_t kWorkOfFeel = 256;
   /// Energy that what was felt ahead of the part may give the hand by coming back: at once [J], and with time [W]. A
   /// part that was far behind finds a wall between itself and the hand, and its full push at once would be energy that

@@ -26,17 +26,24 @@ TEST(StepRows, TheLeastClearanceIsThatOfARowByRowSearchAtAnyNumberOfRows) {
         row = i;
       }
     }
-    const StepRows::Least found = problem.rows.leastClearance(y);
-    EXPECT_EQ(found.row, row);
-    EXPECT_DOUBLE_EQ(found.clearance, least);
+    for (const SimdLevel level : availableSimdLevels()) {
+      StepRows copy(rows, level);
+      for (std::size_t i = 0; i < rows; ++i)
+        ASSERT_TRUE(copy.add(problem.rows.row(i), problem.rows.distance(i)));
+      const StepRows::Least found = copy.leastClearance(y);
+      EXPECT_EQ(found.row, row) << static_cast<int>(level);
+      EXPECT_EQ(found.clearance, least) << static_cast<int>(level);
+    }
   }
 }
 
 TEST(StepRows, OfEqualRowsTheFirstCounts) {
-  StepRows rows;
-  for (int i = 0; i < 40; ++i)
-    rows.add({1.0, 0.0, 0.0, 0.0, 0.0, 0.0}, i < 19 ? 2.0 : 1.0);
-  EXPECT_EQ(rows.leastClearance({}).row, 19u);
+  for (const SimdLevel level : availableSimdLevels()) {
+    StepRows rows(40, level);
+    for (int i = 0; i < 40; ++i)
+      rows.add({1.0, 0.0, 0.0, 0.0, 0.0, 0.0}, i < 19 ? 2.0 : 1.0);
+    EXPECT_EQ(rows.leastClearance({}).row, 19u);
+  }
 }
 
 TEST(StepRows, RowsOfBeforeClearDoNotCount) {
