@@ -61,6 +61,9 @@ class ManyPairs {
     double need = 0.0;
     /// Beyond this, pairs that may be nearer than the nearest of their group are not tested again [m]; at most `need`.
     double sure = 0.0;
+    /// Where the nearest pair of a group has lost a contact no farther than this, all pairs so near of groups without a
+    /// contact are tested again: a contact that goes from one feature to the next is not left out [m]; between both.
+    double held = 0.0;
     double cell = 0.0;  ///< Size of the cells that points are grouped by [m]; > 0.
     /// The way that led there, if it is asked how near the pairs come on it; travel and bend apart.
     std::optional<PartWay> way{};
@@ -136,6 +139,9 @@ class ManyPairs {
     return (held_[slot / kLanes] >> (slot % kLanes) & 1U) != 0;
   }
   void setHeld(std::uint32_t slot) noexcept;
+  bool isTested(std::uint32_t slot) const noexcept {
+    return (tested_[slot / kLanes] >> (slot % kLanes) & 1U) != 0;
+  }
   void setTested(std::uint32_t slot, bool isTested) noexcept;
   /// Counts a held pair in its group, or among the new ones.
   void count(std::uint32_t slot) noexcept;
@@ -183,6 +189,7 @@ class ManyPairs {
   std::size_t at_ = 0;  ///< Where the stage goes on.
   std::uint32_t look_ = 0;
   Found found_;
+  bool isLost_ = false;  ///< In this look a pair has lost a contact that held the part.
   /// Pairs to test, of edges, of the scene's faces and of the part's; and pairs to separate, of edges and vertices, of the
   /// scene's faces and of the part's. What waits when the work is spent waits on, so that a look finds the same however it
   /// is cut up.

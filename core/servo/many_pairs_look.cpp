@@ -137,6 +137,7 @@ ManyPairs::Kind ManyPairs::kindOf(const LeafPair& pair) noexcept {
 
 void ManyPairs::LookCall::separate(std::uint32_t at) noexcept {
   Slot& slot = many_.slots_[at];
+  many_.isLost_ = many_.isLost_ || slot.distance <= many_.asked_.held;
   slot.distance = kBeyondAll;
   // A pair that is new in this look has just been separated at this very pose.
   if (slot.isKnown && many_.look_ - slot.separated < (slot.isClose ? kLooksOfClose : 1)) return;
@@ -327,7 +328,10 @@ bool ManyPairs::LookCall::testNearest() noexcept {
 void ManyPairs::LookCall::lookAt(std::uint32_t at, double bound, double gain) noexcept {
   const Slot& slot = many_.slots_[at];
   if (slot.look == many_.look_) return;
-  if (bound <= many_.groups_[slot.group].least - gain)
+  const double least = many_.groups_[slot.group].least;
+  // Pairs beyond `sure` that were tested before are here for contacts that are lost.
+  const bool isNeeded = bound <= many_.asked_.sure || least == kBeyondAll || !many_.isTested(at);
+  if (isNeeded && bound <= least - gain)
     test(at);
   else
     many_.found_.least = std::min(many_.found_.least, bound);
@@ -338,7 +342,7 @@ bool ManyPairs::LookCall::testRest() noexcept {
   Found& result = many_.found_;
   const double rounding =
       kSeparationRoundings * kPointRounding * (scene_.size() + part_.size() + glm::length(pose_.translation));
-  const double gain = kLeastGain * asked.need, sure = std::min(asked.sure, asked.need),
+  const double gain = kLeastGain * asked.need, sure = many_.isLost_ ? asked.held : asked.sure,
                least = asked.enough + rounding;
   std::array<SeparationScan, 2> scans;
   for (std::size_t kind = 0; kind < scans.size(); ++kind)
@@ -392,6 +396,7 @@ void ManyPairs::begin(const Asked& asked) noexcept {
   asked_ = asked;
   found_ = {kBeyondAll, asked.enough};
   stage_ = Stage::New;
+  isLost_ = false;
   at_ = 0;
   for (std::size_t kind = 0; kind < kKinds; ++kind)
     toTest_[kind].count = toSeparate_[kind].count = 0;

@@ -15,6 +15,8 @@ constexpr double kNeeded = 1.45 / kContactReach;
 /// A look finds all contacts within this share of the reach, those that may be nearer than the margin. Of what is farther
 /// it finds what was nearest before, which is nearly all; the rest it finds once it comes near.
 constexpr double kSure = 0.98 / kContactReach;
+/// And up to this one contacts hold the part: where one is lost, others are looked for.
+constexpr double kHeld = 1.02 / kContactReach;
 /// Contacts taken from a look at once.
 constexpr std::size_t kTaken = 1024;
 
@@ -34,6 +36,7 @@ ManyPairs::Asked askedAmongThousands(const ServoScene& scene, const ServoScene::
           .reach = {reach, contactTurn(reach, scene.metric.radius)},
           .need = std::min(kNeeded * contactReach, reach),
           .sure = std::min(kSure * contactReach, reach),
+          .held = std::min(kHeld * contactReach, reach),
           .cell = kCellOfGyration * std::min({gyration.x, gyration.y, gyration.z})};
 }
 

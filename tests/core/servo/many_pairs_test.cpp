@@ -51,6 +51,7 @@ struct Ringed {
             .reach = {kReach, kTurn},
             .need = kNeed,
             .sure = kNeed,
+            .held = kNeed,
             .cell = kCell};
   }
 };
@@ -137,6 +138,48 @@ TEST(ManyPairs, FindTheLeastDistanceAndANearerContactForEachThatIsLeftOut) {
     there += step > 0 ? all.size() : 0;
   }
   EXPECT_LT(found, there / 2);
+}
+
+/// Contacts that hold the part are beyond what a look is sure of. As the part slides, they go from one feature to the next.
+TEST(ManyPairs, AContactThatGoesToAnotherFeatureIsFoundThere) {
+  constexpr double kSmallCell = 0.02, kTurnOfStep = 0.0008;
+  // Hardly aside: contacts hold the rod all around.
+  constexpr double kAside = 0.0024;
+  Ringed bodies;
+  ManyPairs many, careless;
+  std::size_t missing = 0, carelesslyMissing = 0, there = 0;
+  for (int step = 0; step < 80; ++step) {
+    const double turn = kTurnOfStep * step;
+    const RigidTransform pose{rotationOf({0.0, 0.0, turn}),
+                              {kAside * std::cos(1.5 * turn), kAside * std::sin(1.5 * turn), 0.1 * turn}};
+    const std::span<const LeafPair> near = bodies.near(pose);
+    hold(many, near, kTurnOfStep);
+    hold(careless, near, kTurnOfStep);
+    const std::vector<ContactPair> all = bodies.all(pose, near);
+    const double least = leastOf(all);
+    ManyPairs::Asked asked = bodies.asked(pose);
+    asked.cell = kSmallCell;
+    asked.sure = 0.95 * least;
+    asked.held = 1.04 * least;
+    const Seen seen = look(many, asked);
+    asked.held = asked.sure;
+    const Seen seenCarelessly = look(careless, asked);
+    const auto isMissing = [](const ContactPair& contact, const Seen& in) {
+      return std::ranges::none_of(in.contacts, [&](const ContactPair& other) {
+        return other.distance <= contact.distance + 0.01 * kNeed &&
+               glm::distance(other.direction, contact.direction) < 0.3 &&
+               glm::distance(other.point, contact.point) < 2.0 * kSmallCell;
+      });
+    };
+    for (const ContactPair& contact : all) {
+      if (contact.distance > 1.02 * least) continue;
+      ++there;
+      missing += isMissing(contact, seen) ? 1 : 0;
+      carelesslyMissing += isMissing(contact, seenCarelessly) ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(missing, 0U);
+  EXPECT_GT(carelesslyMissing, there / 50);
 }
 
 /// Work, and room for contacts, only part a look.
