@@ -61,8 +61,8 @@ class ManyPairs {
     double need = 0.0;
     /// Beyond this, pairs that may be nearer than the nearest of their group are not tested again [m]; at most `need`.
     double sure = 0.0;
-    /// Where the nearest pair of a group has lost a contact no farther than this, all pairs so near of groups without a
-    /// contact are tested again: a contact that goes from one feature to the next is not left out [m]; between both.
+    /// Where a pair has lost a contact no farther than this, all pairs so near whose groups have no contact are tested
+    /// again: a contact that goes from one feature to the next is not left out [m]; from `sure` to `need`.
     double held = 0.0;
     double cell = 0.0;  ///< Size of the cells that points are grouped by [m]; > 0.
     /// The way that led there, if it is asked how near the pairs come on it; travel and bend apart.
@@ -121,7 +121,7 @@ class ManyPairs {
   static Kind kindOf(const LeafPair& pair) noexcept;
   /// Slots that wait until there are as many as a kernel takes at a time.
   struct Waiting {
-    std::array<std::uint32_t, kLanes> at;
+    std::array<std::uint32_t, kLanes> at{};
     std::size_t count = 0;
   };
   class LookCall;
