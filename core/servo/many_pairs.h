@@ -32,7 +32,8 @@ class ManyPairs {
   static constexpr std::size_t kFew = 1024;
   /// Max pairs held.
   static constexpr std::size_t kMax = 1U << 15;
-  /// Room for contacts that a look needs to go on.
+  /// Room for contacts that a look needs to go on: of eight pairs of a block, and of as many of each of two kinds that
+  /// waited for them.
   static constexpr std::size_t kLeastRoom = 24;
   /// Cell size of the directions that pairs are grouped by; their length is 1.
   static constexpr double kDirectionCell = 0.2;
@@ -91,8 +92,7 @@ class ManyPairs {
   std::optional<Found> goOn(std::uint64_t& work, std::span<ContactPair> out, std::size_t& count) noexcept;
 
  private:
-  static constexpr std::size_t kLanes = SeparatedPairs::kLanes;
-  static_assert(kLanes == EdgePairs::kLanes && kLanes == FacePairs::kLanes);
+  static constexpr std::size_t kLanes = kPairLanes;
   static constexpr std::uint32_t kNone = ~0U;
   static constexpr double kBeyondAll = std::numeric_limits<double>::infinity();
   /// Slots for pairs separated by the scene, and as many for those separated by the part.

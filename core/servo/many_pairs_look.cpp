@@ -29,10 +29,6 @@ constexpr std::uint64_t kWorkOfExactTest = 2, kWorkOfTestAmongEight = 1, kWorkOf
                         kWorkOfOnePassage = 1;
 constexpr std::size_t kBoundedOfWork = 32, kBoundedOnWayOfWork = 16;
 
-glm::dvec3 vectorIn(const EdgePairs::Vectors& vectors, std::size_t lane) noexcept {
-  return {vectors[0][lane], vectors[1][lane], vectors[2][lane]};
-}
-
 }  // namespace
 
 /// One call of goOn(): the look's pose, the work allowed, and the room for contacts.
@@ -61,7 +57,7 @@ class ManyPairs::LookCall {
     std::size_t count;
   };
   void spend(std::uint64_t work) noexcept { work_ -= std::min(work_, work); }
-  /// True if a pair can be tested, or eight at a time with as many singly.
+  /// True if the pairs of a block can be tested, and what waits with them.
   bool canTest() const noexcept { return work_ > 0 && count_ + kLeastRoom <= out_.size(); }
   std::uint64_t keyOf(const glm::dvec3& direction, const glm::dvec3& point) const noexcept;
   void test(std::uint32_t at) noexcept;

@@ -56,10 +56,8 @@ ContactPair contactOf(const Minimum& minimum, const NormalConeTree& scene) noexc
 
 /// The same for what a kernel found.
 ContactPair contactOf(const EdgePairHits& hits, std::size_t lane, const NormalConeTree& scene) noexcept {
-  const auto vector = [lane](const EdgePairs::Vectors& v) {
-    return glm::dvec3(v[0][lane], v[1][lane], v[2][lane]);
-  };
-  return {vector(hits.partPoint) + scene.centre(), vector(hits.direction), hits.distance[lane]};
+  return {vectorIn(hits.partPoint, lane) + scene.centre(), vectorIn(hits.direction, lane),
+          hits.distance[lane]};
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 
 #include <glm/mat3x3.hpp>
@@ -9,27 +7,22 @@
 
 #include "core/math/rigid_transform.h"
 #include "core/proximity/query/box_cull.h"
+#include "core/proximity/query/lane_vectors.h"
 
 // Eight doubles at a time, as the scalar code computes them: the arithmetic of glm in the order of glm, so that results
 // are the same to the last bit if contraction is off. Everything is forced inline, like in box_cull.h.
 
 namespace nearfit::simd {
 
-constexpr std::size_t kDoubles = 8;
-
-/// Eight numbers, and three coordinates of eight vectors, in memory.
-using Numbers8 = std::array<double, kDoubles>;
-using Vectors8 = std::array<Numbers8, 3>;
-
 using Doubles8 = double __attribute__((vector_size(64)));
 using Mask8 = std::int64_t __attribute__((vector_size(64)));
 using DoubleVectors8 = Triple<Doubles8>;
-static_assert(sizeof(Doubles8) == sizeof(Numbers8));
+static_assert(sizeof(Doubles8) == sizeof(LaneNumbers));
 
-NEARFIT_INLINE void store(const Doubles8& from, Numbers8& to) {
+NEARFIT_INLINE void store(const Doubles8& from, LaneNumbers& to) {
   __builtin_memcpy(&to, &from, sizeof from);
 }
-NEARFIT_INLINE void store(const DoubleVectors8& from, Vectors8& to) {
+NEARFIT_INLINE void store(const DoubleVectors8& from, LaneVectors& to) {
   store(from.x, to[0]);
   store(from.y, to[1]);
   store(from.z, to[2]);
@@ -54,9 +47,14 @@ NEARFIT_INLINE DoubleVectors8 over(const DoubleVectors8& a, const Doubles8& s) {
 NEARFIT_INLINE DoubleVectors8 chosen(const Mask8& mask, const DoubleVectors8& a, const DoubleVectors8& b) {
   return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
 }
+/// Within 0 and 1, as std::clamp does it.
+NEARFIT_INLINE Lanes<Doubles8> asShare(const Doubles8& share) {
+  const Doubles8 zero{}, one = Doubles8{} + 1.0;
+  return {share < zero ? zero : share > one ? one : share};
+}
 /// Goes through memory, as there is no operator for it.
 NEARFIT_INLINE Lanes<Doubles8> root(const Doubles8& squares) {
-  double numbers[kDoubles];
+  double numbers[kPairLanes];
   __builtin_memcpy(numbers, &squares, sizeof numbers);
   for (double& number : numbers)
     number = __builtin_sqrt(number);

@@ -20,8 +20,8 @@ using Edges = EdgePairs::Edges;
 constexpr std::size_t kLanes = EdgePairs::kLanes;
 
 /// LeafTests::edgeOf and inwardOf, eight at a time.
-NEARFIT_INLINE void pack(const std::array<EdgePairs::Vectors, 2>& ends,
-                         const std::array<EdgePairs::Vectors, 2>& opposite, Edges& out) {
+NEARFIT_INLINE void pack(const std::array<LaneVectors, 2>& ends, const std::array<LaneVectors, 2>& opposite,
+                         Edges& out) {
   const DoubleVectors8 start = simd::lanesOf<Doubles8>(ends[0]),
                        whole = simd::minus(simd::lanesOf<Doubles8>(ends[1]), start);
   const Doubles8 length = simd::lengthOf(whole).value;
@@ -131,19 +131,14 @@ NEARFIT_AVX512 void testAvx512(const EdgePairs& pairs, const RigidTransform& sce
 }
 #endif
 
-void put(const NormalConeTree& tree, std::uint32_t leaf, std::size_t lane,
-         std::array<EdgePairs::Vectors, 2>& ends, std::array<EdgePairs::Vectors, 2>& opposite) noexcept {
+void put(const NormalConeTree& tree, std::uint32_t leaf, std::size_t lane, std::array<LaneVectors, 2>& ends,
+         std::array<LaneVectors, 2>& opposite) noexcept {
   const NormalConeTree::EdgeLeaf& edge = tree.edges()[NormalConeTree::leafIndex(leaf)];
-  const auto putOne = [&](std::uint32_t vertex, EdgePairs::Vectors& to) {
-    const glm::dvec3& at = tree.positions()[vertex];
-    to[0][lane] = at.x;
-    to[1][lane] = at.y;
-    to[2][lane] = at.z;
-  };
-  putOne(edge.v0, ends[0]);
-  putOne(edge.v1, ends[1]);
+  const std::span<const glm::dvec3> at = tree.positions();
+  setVector(ends[0], lane, at[edge.v0]);
+  setVector(ends[1], lane, at[edge.v1]);
   for (std::size_t i = 0; i < opposite.size(); ++i)
-    putOne(edge.opposite[i], opposite[i]);
+    setVector(opposite[i], lane, at[edge.opposite[i]]);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/math/rigid_transform.h"
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/query/cull_kernel.h"
+#include "core/proximity/query/lane_vectors.h"
 #include "core/proximity/query/leaf_pair.h"
 #include "core/proximity/query/segment_pairs.h"
 
@@ -17,22 +18,20 @@ namespace nearfit {
 /// centred frame of its own tree [m].
 struct alignas(64) EdgePairCorners {
   SegmentPairs ends;
-  std::array<SegmentPairs::Vectors, 2> sceneOpposite, partOpposite;
+  std::array<LaneVectors, 2> sceneOpposite, partOpposite;
 };
 
 /// Eight pairs of edges, one per lane, with what their tests need at any pose. Each edge is in the centred
 /// frame of its own tree.
 struct alignas(64) EdgePairs {
-  static constexpr std::size_t kLanes = SegmentPairs::kLanes;
+  static constexpr std::size_t kLanes = kPairLanes;
 
-  using Numbers = SegmentPairs::Numbers;
-  using Vectors = SegmentPairs::Vectors;
   struct Edges {
-    Vectors start, along;  ///< `along` is unit.
-    Numbers length;        ///< [m]
-    /// Vectors from the edge, perpendicular to it, to the third corner of each face, and their lengths [m].
-    std::array<Vectors, 2> inward;
-    std::array<Numbers, 2> depth;
+    LaneVectors start, along;  ///< `along` is unit.
+    LaneNumbers length;        ///< [m]
+    /// LaneVectors from the edge, perpendicular to it, to the third corner of each face, and their lengths [m].
+    std::array<LaneVectors, 2> inward;
+    std::array<LaneNumbers, 2> depth;
   };
   Edges scene, part;
 };
@@ -50,11 +49,11 @@ struct EdgePairHits {
   std::uint32_t found = 0;
   /// Lanes whose edges are nearly parallel or not finite: LeafTests decides.
   std::uint32_t undecided = 0;
-  EdgePairs::Vectors partPoint, direction;  ///< In the scene's centred frame; valid in lanes found.
-  EdgePairs::Numbers distance;              ///< [m]
+  LaneVectors partPoint, direction;  ///< In the scene's centred frame; valid in lanes found.
+  LaneNumbers distance;              ///< [m]
 };
 
-/// What is done with eight pairs of edges at a time. Results equal those of LeafTests for each pair to the last bit,
+/// Kernels for eight pairs of edges. Results equal those of LeafTests for each pair to the last bit,
 /// since the arithmetic and its order are the same. Real-time safe.
 struct EdgePairKernels {
   void (*pack)(const EdgePairCorners& corners, EdgePairs& out) noexcept = nullptr;

@@ -32,10 +32,6 @@ NEARFIT_INLINE simd::Lanes<Doubles8> reachOf(const Seen& seen, const DoubleVecto
   return {simd::most(simd::most(simd::dot(d, seen.corners[0]), simd::dot(d, seen.corners[1])),
                      simd::dot(d, seen.corners[2]))};
 }
-NEARFIT_INLINE simd::Lanes<Doubles8> clamped(const Doubles8& share) {
-  const Doubles8 zero{}, one = Doubles8{} + 1.0;
-  return {share < zero ? zero : share > one ? one : share};
-}
 
 /// LeafTests::vertexFace up to the vertex's edges, step by step.
 NEARFIT_INLINE void test(const FacePairs& pairs, const RigidTransform& faceFromVertex,
@@ -61,7 +57,7 @@ NEARFIT_INLINE void test(const FacePairs& pairs, const RigidTransform& faceFromV
     isOver &= ~(simd::dot(inward, w) < -slack * simd::lengthOf(inward).value);
     const DoubleVectors8 foot = simd::minus(w, simd::times(n, simd::dot(w, n)));
     const Mask8 isBeyond = ~(simd::dot(inward, foot) >= zero);
-    const Doubles8 along = clamped(simd::dot(foot, side) / simd::dot(side, side)).value;
+    const Doubles8 along = simd::asShare(simd::dot(foot, side) / simd::dot(side, side)).value;
     const DoubleVectors8 beside = simd::minus(foot, simd::times(side, along));
     isInside &= ~isBeyond;
     isNear |= isBeyond & (simd::dot(beside, beside) <= slack * slack);
@@ -88,7 +84,7 @@ NEARFIT_INLINE void separate(const FacePairs& pairs, const RigidTransform& faceF
     const DoubleVectors8 w = simd::minus(seen.vertex, seen.corners[k]);
     const Mask8 isBeyond = ~(simd::dot(simd::cross(seen.across, side), w) >= zero);
     const Doubles8 squaredSide = simd::dot(side, side);
-    const Doubles8 along = squaredSide > zero ? clamped(simd::dot(w, side) / squaredSide).value : zero;
+    const Doubles8 along = squaredSide > zero ? simd::asShare(simd::dot(w, side) / squaredSide).value : zero;
     const DoubleVectors8 beside = simd::minus(w, simd::times(side, along));
     const Doubles8 squared = simd::dot(beside, beside);
     const Mask8 isNearer = isBeyond & (squared < least);
@@ -145,17 +141,12 @@ void packFacePairs(const NormalConeTree& scene, const NormalConeTree& part,
                    FacePairs& block) noexcept {
   const NormalConeTree &faces = facesArePart ? part : scene, &vertices = facesArePart ? scene : part;
   for (std::size_t lane = 0; lane < FacePairs::kLanes; ++lane) {
-    const auto put = [lane](const glm::dvec3& at, FacePairs::Vectors& to) {
-      to[0][lane] = at.x;
-      to[1][lane] = at.y;
-      to[2][lane] = at.z;
-    };
     const std::uint32_t face = NormalConeTree::leafIndex(facesArePart ? pairs[lane].part : pairs[lane].scene),
                         vertex =
                             NormalConeTree::leafIndex(facesArePart ? pairs[lane].scene : pairs[lane].part);
     for (std::size_t k = 0; k < 3; ++k)
-      put(faces.positions()[faces.faces()[face].corners[k]], block.corners[k]);
-    put(vertices.positions()[vertices.vertices()[vertex].vertex], block.vertex);
+      setVector(block.corners[k], lane, faces.positions()[faces.faces()[face].corners[k]]);
+    setVector(block.vertex, lane, vertices.positions()[vertices.vertices()[vertex].vertex]);
   }
 }
 

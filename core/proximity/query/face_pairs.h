@@ -9,6 +9,7 @@
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/query/cull_kernel.h"
 #include "core/proximity/query/edge_pairs.h"
+#include "core/proximity/query/lane_vectors.h"
 #include "core/proximity/query/leaf_pair.h"
 
 namespace nearfit {
@@ -16,12 +17,10 @@ namespace nearfit {
 /// Eight pairs of a face and a vertex, one per lane; the faces are of one body, the vertices of the other. Each is in the
 /// centred frame of its own tree [m].
 struct alignas(64) FacePairs {
-  static constexpr std::size_t kLanes = EdgePairs::kLanes;
-  using Numbers = EdgePairs::Numbers;
-  using Vectors = EdgePairs::Vectors;
+  static constexpr std::size_t kLanes = kPairLanes;
 
-  std::array<Vectors, 3> corners;
-  Vectors vertex;
+  std::array<LaneVectors, 3> corners;
+  LaneVectors vertex;
 };
 
 /// Packs pairs of a face and a vertex.
@@ -31,23 +30,23 @@ void packFacePairs(const NormalConeTree& scene, const NormalConeTree& part,
                    std::span<const LeafPair, FacePairs::kLanes> pairs, bool facesArePart,
                    FacePairs& block) noexcept;
 
-/// What LeafTests finds of the faces before it looks at the vertices' edges.
+/// Results of the part of LeafTests that concerns the faces: it comes before the vertices' edges.
 struct FacePairHits {
   std::uint32_t over = 0;  ///< Lanes whose vertex is over its face, and within the cutoff; one bit per lane.
-  FacePairs::Vectors vertex, normal;  ///< In the faces' frame; `normal` is unit.
-  FacePairs::Numbers distance;        ///< [m]
-  FacePairs::Numbers tilt;            ///< Error of the face's normal [rad].
+  LaneVectors vertex, normal;  ///< In the faces' frame; `normal` is unit.
+  LaneNumbers distance;        ///< [m]
+  LaneNumbers tilt;            ///< Error of the face's normal [rad].
 };
 
 /// How the pairs are apart, as directionsOf() and separationAlong() tell, in the faces' frame.
 struct FaceSeparations {
-  FacePairs::Vectors apart;   ///< From the face to the vertex, unit; zero without a distance.
-  FacePairs::Vectors normal;  ///< Unit; zero for a face without an area.
-  FacePairs::Vectors vertex;
-  FacePairs::Numbers distance, height;  ///< `height`: how far the face reaches along `apart` [m].
+  LaneVectors apart;   ///< From the face to the vertex, unit; zero without a distance.
+  LaneVectors normal;  ///< Unit; zero for a face without an area.
+  LaneVectors vertex;
+  LaneNumbers distance, height;  ///< `height`: how far the face reaches along `apart` [m].
 };
 
-/// What is done with eight pairs at a time.
+/// Kernels for eight pairs.
 /// @param faceFromVertex  Between the trees' centred frames.
 /// Real-time safe.
 struct FacePairKernels {

@@ -141,15 +141,10 @@ PairDirections directionsOf(const NormalConeTree& scene, const NormalConeTree& p
 }
 
 void SeparatedPairs::set(std::size_t lane, const Separation& separation) noexcept {
-  const auto put = [lane](const glm::dvec3& from, Vectors& to) {
-    to[0][lane] = from.x;
-    to[1][lane] = from.y;
-    to[2][lane] = from.z;
-  };
-  put(separation.direction, direction);
+  setVector(direction, lane, separation.direction);
   height[lane] = separation.height;
-  put(separation.ends[0], ends[0]);
-  put(separation.ends[1], ends[1]);
+  setVector(ends[0], lane, separation.ends[0]);
+  setVector(ends[1], lane, separation.ends[1]);
 }
 
 SeparationPose separationPose(const RigidTransform& sceneFromPart, bool isOfPart) noexcept {

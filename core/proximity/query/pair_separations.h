@@ -10,6 +10,7 @@
 #include "core/math/rigid_transform.h"
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/query/cull_kernel.h"
+#include "core/proximity/query/lane_vectors.h"
 #include "core/proximity/query/leaf_pair.h"
 
 namespace nearfit {
@@ -51,13 +52,11 @@ PairDirections directionsOf(const NormalConeTree& scene, const NormalConeTree& p
 
 /// Eight separations, one per lane, all of the scene or all of the part.
 struct alignas(64) SeparatedPairs {
-  static constexpr std::size_t kLanes = 8;
-  using Numbers = std::array<double, kLanes>;
-  using Vectors = std::array<Numbers, 3>;
+  static constexpr std::size_t kLanes = kPairLanes;
 
-  Vectors direction;
-  Numbers height;
-  std::array<Vectors, 2> ends;
+  LaneVectors direction;
+  LaneNumbers height;
+  std::array<LaneVectors, 2> ends;
 
   void set(std::size_t lane, const Separation& separation) noexcept;
 };
@@ -86,7 +85,7 @@ struct SeparationsFound {
   static constexpr std::size_t kMostBlocks = 16;
   /// By block, a bit for each lane whose pair is near, and for each that is near on the way.
   std::array<std::uint8_t, kMostBlocks> near{}, nearOnWay{};
-  std::array<SeparatedPairs::Numbers, kMostBlocks> apart{};  ///< At the pose, of the blocks with such a pair.
+  std::array<LaneNumbers, kMostBlocks> apart{};  ///< At the pose, of the blocks with such a pair.
   double lowest =
       0.0;  ///< How far the nearest of the other pairs is apart at the pose; infinity without one.
 };

@@ -12,7 +12,6 @@ using simd::DoubleVectors8;
 using simd::Mask8;
 
 constexpr std::size_t kLanes = SegmentPairs::kLanes;
-static_assert(kLanes == simd::kDoubles);
 
 /// Edges from their starts, in one frame, and their squared lengths.
 struct Edges {
@@ -21,10 +20,9 @@ struct Edges {
 };
 /// Where on the edges a point is nearest: 0 at the start, 1 at the end, 0 on a vertex.
 NEARFIT_INLINE simd::Lanes<Doubles8> shareOf(const Edges& edges, const DoubleVectors8& point) {
-  const Doubles8 zero{}, one = Doubles8{} + 1.0;
+  const Doubles8 zero{};
   const Doubles8 share = simd::dot(simd::minus(point, edges.start), edges.along) / edges.squared;
-  const Doubles8 within = share < zero ? zero : share > one ? one : share;
-  return {edges.squared > zero ? within : zero};
+  return {edges.squared > zero ? simd::asShare(share).value : zero};
 }
 NEARFIT_INLINE DoubleVectors8 at(const Edges& edges, const Doubles8& share) {
   return simd::plus(edges.start, simd::times(edges.along, share));
@@ -47,7 +45,7 @@ NEARFIT_INLINE DoubleVectors8 unitOrZero(const DoubleVectors8& v, const Doubles8
 
 /// directionsOf(), step by step: closestOfSegments(), then directionAcross().
 NEARFIT_INLINE void separate(const SegmentPairs& pairs, const SeparationPose& pose, SegmentSeparations& out) {
-  const Doubles8 zero{}, one = Doubles8{} + 1.0;
+  const Doubles8 zero{};
   const Ends a{simd::lanesOf<Doubles8>(pairs.scene[0]), simd::lanesOf<Doubles8>(pairs.scene[1])};
   const DoubleVectors8 shift = simd::spread(pose.shift);
   const Ends b{simd::plus(simd::turned(pose.turn, simd::lanesOf<Doubles8>(pairs.part[0])), shift),
@@ -62,8 +60,8 @@ NEARFIT_INLINE void separate(const SegmentPairs& pairs, const SeparationPose& po
       simd::bitsOf((product > zero) & ~(nn > kParallelSegments * ofScene.squared * ofPart.squared));
 
   const Doubles8 crossing = simd::dot(simd::cross(simd::minus(b.first, a.first), ofPart.along), normal) / nn;
-  const Doubles8 within = crossing < zero ? zero : crossing > one ? one : crossing;
-  const DoubleVectors8 q = at(ofPart, shareOf(ofPart, at(ofScene, nn > zero ? within : zero)).value);
+  const DoubleVectors8 q =
+      at(ofPart, shareOf(ofPart, at(ofScene, nn > zero ? simd::asShare(crossing).value : zero)).value);
   const DoubleVectors8 p = at(ofScene, shareOf(ofScene, q).value);
   const DoubleVectors8 between = simd::minus(q, p);
   const Doubles8 distance = simd::lengthOf(between).value;
@@ -97,10 +95,6 @@ NEARFIT_AVX512 void separateAvx512(const SegmentPairs& pairs, const SeparationPo
 }
 #endif
 
-glm::dvec3 vectorIn(const SegmentPairs::Vectors& vectors, std::size_t lane) noexcept {
-  return {vectors[0][lane], vectors[1][lane], vectors[2][lane]};
-}
-
 }  // namespace
 
 bool isOfSegments(const LeafPair& pair) noexcept {
@@ -111,12 +105,10 @@ bool isOfSegments(const LeafPair& pair) noexcept {
 void packSegmentPairs(const NormalConeTree& scene, const NormalConeTree& part,
                       std::span<const LeafPair, SegmentPairs::kLanes> pairs, SegmentPairs& block) noexcept {
   const auto put = [](const NormalConeTree& tree, std::uint32_t leaf, std::size_t lane,
-                      std::array<SegmentPairs::Vectors, 2>& ends) {
+                      std::array<LaneVectors, 2>& ends) {
     const FeatureCorners corners = cornersOf(tree, leaf);
-    for (std::size_t end = 0; end < 2; ++end) {
-      for (std::size_t k = 0; k < 3; ++k)
-        ends[end][k][lane] = corners.at[end][static_cast<glm::length_t>(k)];
-    }
+    for (std::size_t end = 0; end < ends.size(); ++end)
+      setVector(ends[end], lane, corners.at[end]);
   };
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     put(scene, pairs[lane].scene, lane, block.scene);

@@ -10,6 +10,7 @@
 
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/query/cull_kernel.h"
+#include "core/proximity/query/lane_vectors.h"
 #include "core/proximity/query/leaf_pair.h"
 #include "core/proximity/query/pair_separations.h"
 
@@ -18,11 +19,9 @@ namespace nearfit {
 /// Eight pairs of features, one per lane, each feature an edge or a vertex: the two ends of an edge, or a vertex twice,
 /// in the centred frame of its own tree [m].
 struct alignas(64) SegmentPairs {
-  static constexpr std::size_t kLanes = 8;
-  using Numbers = std::array<double, kLanes>;
-  using Vectors = std::array<Numbers, 3>;
+  static constexpr std::size_t kLanes = kPairLanes;
 
-  std::array<Vectors, 2> scene, part;
+  std::array<LaneVectors, 2> scene, part;
 };
 
 /// True if neither feature of a pair is a face.
@@ -34,13 +33,10 @@ void packSegmentPairs(const NormalConeTree& scene, const NormalConeTree& part,
 
 /// PairDirections of eight pairs, and how far the scene's feature reaches along `apart`.
 struct SegmentSeparations {
-  using Numbers = SegmentPairs::Numbers;
-  using Vectors = SegmentPairs::Vectors;
-
   /// Lanes whose edges are so nearly parallel that directionsOf() decides; one bit per lane.
   std::uint8_t undecided = 0;
-  Vectors apart, ofContact, onPart;
-  Numbers distance, height;
+  LaneVectors apart, ofContact, onPart;
+  LaneNumbers distance, height;
 
   PairDirections directions(std::size_t lane) const noexcept;
 };

@@ -24,10 +24,6 @@ using Block = std::span<const LeafPair, FacePairs::kLanes>;
 
 constexpr double kReach = 0.1, kTurn = 0.02;
 
-glm::dvec3 vectorIn(const FacePairs::Vectors& vectors, std::size_t lane) {
-  return {vectors[0][lane], vectors[1][lane], vectors[2][lane]};
-}
-
 /// Calls visit(scene, part, pose, block, facesArePart, scale) for blocks of pairs at poses near contact; poses are between
 /// the centred frames.
 template <class Visit>

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/proximity/query/contact_query.h"
+#include "core/proximity/query/edge_pairs.h"
 #include "core/proximity/query/query_workspace.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
@@ -56,10 +57,7 @@ void compare(const NormalConeTree& scene, const NormalConeTree& part, const Rigi
       EXPECT_EQ(directions.onPart, expected.onPart);
       EXPECT_EQ(directions.distance, expected.distance);
       EXPECT_EQ(found.height[lane], separation.height);
-      ++(NormalConeTree::leafKind(pairs[lane].scene) == FeatureKind::Edge &&
-                 NormalConeTree::leafKind(pairs[lane].part) == FeatureKind::Edge
-             ? counts.edges
-             : counts.withVertex);
+      ++(isOfEdges(pairs[lane]) ? counts.edges : counts.withVertex);
     }
   }
 }
